@@ -1,0 +1,90 @@
+//! Errors carry the values that explain them; `main` prints one once, with its causes.
+
+use std::path::PathBuf;
+
+/// Everything that can end a command.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A scene file that cannot be used: where, which key, what is wrong and what would be right.
+    #[error("{file}{}: {key}: {problem}; {remedy}", .line.map(|l| format!(":{l}")).unwrap_or_default())]
+    Scene { file: String, line: Option<usize>, key: String, problem: String, remedy: String },
+
+    /// Something a scene may name one day, but that this version does not have.
+    #[error("{what} is not available in this version; {instead}")]
+    Unsupported { what: String, instead: String },
+
+    /// A file or folder that could not be read or written.
+    #[error("{}: cannot {action}", .path.display())]
+    Io {
+        path: PathBuf,
+        action: &'static str,
+        #[source]
+        source: std::io::Error,
+    },
+
+    /// A result file whose content is not what this program writes.
+    #[error("{}: {problem}", .path.display())]
+    Format { path: PathBuf, problem: String },
+
+    /// An element turned inside out or lost its volume: J = det F at a point is not positive.
+    #[error(
+        "element {element} inverted at step {step} (t = {time:.6e} s): det F is not positive; \
+         the last good sample is kept. A smaller time_step.safety, a gentler load or a finer mesh may help"
+    )]
+    Inverted { step: u64, time: f64, element: usize },
+
+    /// A NaN or infinity in the element pass.
+    #[error(
+        "element {element} has a value that is not finite at step {step} (t = {time:.6e} s); \
+         the last good sample is kept. A smaller time_step.safety may help"
+    )]
+    NotFinite { step: u64, time: f64, element: usize },
+
+    /// No adapter can run compute shaders.
+    #[error(
+        "no GPU adapter found ({detail}); install a Vulkan driver (Debian: mesa-vulkan-drivers) or use --engine cpu"
+    )]
+    NoAdapter { detail: String },
+
+    /// The scene needs more than the adapter offers.
+    #[error(
+        "the scene needs {need} for {what}, but {adapter} offers {limit}; about {fits} elements would fit"
+    )]
+    TooLarge { what: String, need: u64, limit: u64, adapter: String, fits: u64 },
+
+    /// The adapter went away or refused a request.
+    #[error("GPU adapter {adapter}: {detail}")]
+    Device { adapter: String, detail: String },
+
+    /// A quasi-static or other iterative stage ended without reaching its criterion.
+    #[error("stage {stage:?} did not settle: {detail}")]
+    NotSettled { stage: String, detail: String },
+
+    /// Ctrl-C: everything computed so far has been written.
+    #[error("interrupted at t = {time:.6e} s; everything computed so far is in {}", .out.display())]
+    Interrupted { time: f64, out: PathBuf },
+}
+
+/// Result of this crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+impl Error {
+    /// Exit code of the program: 2 bad input, 3 no such feature, 4 no usable adapter, 5 the run failed
+    /// numerically, 6 files, 130 interrupted.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Error::Scene { .. } => 2,
+            Error::Unsupported { .. } => 3,
+            Error::NoAdapter { .. } | Error::TooLarge { .. } | Error::Device { .. } => 4,
+            Error::Inverted { .. } | Error::NotFinite { .. } | Error::NotSettled { .. } => 5,
+            Error::Io { .. } | Error::Format { .. } => 6,
+            Error::Interrupted { .. } => 130,
+        }
+    }
+
+    /// Wraps an I/O error with the path and what was being done to it.
+    pub fn io(path: impl Into<PathBuf>, action: &'static str) -> impl FnOnce(std::io::Error) -> Error {
+        let path = path.into();
+        move |source| Error::Io { path, action, source }
+    }
+}

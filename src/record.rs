@@ -1,0 +1,100 @@
+//! What a run produces, whatever engine computed it: history rows and whole fields, SI, f64.
+
+/// One row of the history: a window of `output.sample` seconds that ends at `time`.
+///
+/// Forces and moments are impulses over the window divided by its length, from every step.
+/// Energies and works are totals since t = 0 [J]; works are done *on the body* (losses are negative).
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+pub struct Sample {
+    pub time_s: f64,
+    /// Index of the stage, from 0.
+    pub stage: usize,
+    /// Road's force on the body [N].
+    pub road_fx_N: f64,
+    pub road_fy_N: f64,
+    pub road_fz_N: f64,
+    /// Rim's force on the rubber, without the rim nodes' own inertia [N].
+    pub rim_fx_N: f64,
+    pub rim_fy_N: f64,
+    pub rim_fz_N: f64,
+    /// Rim's moment on the rubber about the axle's current point, fixed axes [N m].
+    pub rim_mx_Nm: f64,
+    pub rim_my_Nm: f64,
+    pub rim_mz_Nm: f64,
+    /// Axle's position at the end of the window [m].
+    pub axle_x_m: f64,
+    pub axle_y_m: f64,
+    pub axle_z_m: f64,
+    /// Spin angle at the end of the window [rad].
+    pub rim_angle_rad: f64,
+    /// Deformed area of the touching nodes, each weighted with its share of the window in contact [m2].
+    pub contact_area_m2: f64,
+    /// Mean number of touching nodes over the window.
+    pub contact_nodes: f64,
+    /// Share of the touching node-steps that stick, 0..1 (0 without contact or friction).
+    pub sticking_share: f64,
+    /// Kinetic energy at the last half step [J].
+    pub kinetic_J: f64,
+    pub strain_J: f64,
+    pub hourglass_J: f64,
+    /// Rim work and body-force work [J].
+    pub external_work_J: f64,
+    pub friction_work_J: f64,
+    /// Work of the normal contact forces: impact loss [J].
+    pub contact_work_J: f64,
+    pub damping_work_J: f64,
+    pub viscous_work_J: f64,
+    /// Kinetic energy less every work since the start [J]; round-off unless a force went unbooked.
+    pub balance_error_J: f64,
+    /// The same with the stored energy W in place of the internal work [J].
+    pub stored_balance_error_J: f64,
+    /// Smallest det F over all integration points at the end of the window.
+    pub min_jacobian: f64,
+    /// Step used in the window [s].
+    pub dt_s: f64,
+}
+
+/// State of a node that can touch the road.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ContactState {
+    Free,
+    Stick,
+    Slip,
+}
+
+/// A surface node in a snapshot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactNode {
+    pub node: u32,
+    /// Force of the road on the node, mean over the last window [N].
+    pub force: [f64; 3],
+    /// Deformed tributary area [m2].
+    pub area: f64,
+    /// Normal force over area [Pa].
+    pub pressure: f64,
+    /// Tangential speed relative to the road [m/s].
+    pub slip_speed: f64,
+    pub state: ContactState,
+}
+
+/// Whole fields at one time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Snapshot {
+    pub time: f64,
+    pub step: u64,
+    /// Current positions [m], shape `[node_count]`.
+    pub x: Vec<[f64; 3]>,
+    /// Half-step velocities [m/s], shape `[node_count]`.
+    pub v: Vec<[f64; 3]>,
+    /// Every surface node of the mesh, in its order; empty without a road.
+    pub contact: Vec<ContactNode>,
+    /// Mean volume ratio v/V, shape `[element_count]`.
+    pub volume_ratio: Vec<f64>,
+    /// Mean of -tr(sigma)/3 [Pa], shape `[element_count]`.
+    pub pressure: Vec<f64>,
+    /// Mean von Mises stress [Pa], shape `[element_count]`.
+    pub von_mises: Vec<f64>,
+    /// Axle's position [m] and rotation matrix of the rim (rows), if there is a rim.
+    pub axle: Option<([f64; 3], [[f64; 3]; 3])>,
+}

@@ -1,0 +1,231 @@
+//! What a scene says: plain SI numbers and choices, nothing about meshes, buffers or devices.
+//!
+//! [`Scene`] is what the rest of the program reads. How it looks in a file (TOML, quantities with
+//! units) is [`file`](self)'s business; every value here has been checked.
+
+use std::path::PathBuf;
+
+/// A simulation as its scene file describes it, in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// File it was read from.
+    pub file: PathBuf,
+    /// SHA-256 of the effective text (after `--set`), hexadecimal.
+    pub hash: String,
+    /// One line that names the scene.
+    pub title: String,
+    /// Where the case comes from (paper section, other code).
+    pub source: String,
+    /// What is expected of it, in words.
+    pub expected: String,
+    pub body: Body,
+    pub rim: Option<Rim>,
+    pub road: Option<Road>,
+    /// `None`: frictionless.
+    pub friction: Option<Friction>,
+    /// Body force per mass [m/s2].
+    pub gravity: [f64; 3],
+    /// Fraction of the critical time step that is used, 0 < safety; default 0.9.
+    pub safety: f64,
+    pub stages: Vec<Stage>,
+    pub output: Output,
+}
+
+/// The deformable body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    pub mesh: MeshSpec,
+    /// Translation of the whole mesh before the start [m].
+    pub offset: [f64; 3],
+    /// Mass density in the reference shape [kg/m3], > 0.
+    pub density: f64,
+    pub law: Law,
+    /// Kelvin-Voigt shear viscosity [Pa s]; `None`: purely elastic, and no viscous code is composed.
+    pub viscosity: Option<f64>,
+    pub element: Element,
+    /// Velocity of every node at t = 0 [m/s].
+    pub velocity: [f64; 3],
+    /// Angular velocity at t = 0 about the body's centroid [rad/s].
+    pub angular_velocity: [f64; 3],
+}
+
+/// Mesh generators.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MeshSpec {
+    /// A thick-walled cylinder, axle along y through (0, 0, outer_radius), so that it touches z = 0;
+    /// a row of nodes stands at the bottom.
+    Ring {
+        outer_radius: f64,
+        inner_radius: f64,
+        width: f64,
+        /// Elements along [circumference, radius, width].
+        elements: [usize; 3],
+    },
+    /// A box with one corner at the origin, edges along +x, +y, +z.
+    Block { size: [f64; 3], elements: [usize; 3] },
+}
+
+/// Hyperelastic laws (mechanics: eqs. 4-6). g0, g1, g2 in Pa.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Law {
+    /// `mooney-rivlin` with g2 = 0: its own, cheaper, code.
+    NeoHookean {
+        g0: f64,
+        g1: f64,
+    },
+    MooneyRivlin {
+        g0: f64,
+        g1: f64,
+        g2: f64,
+    },
+    MooneyRivlinEq4 {
+        g0: f64,
+        g1: f64,
+        g2: f64,
+    },
+}
+
+/// Element formulations (eqs. 11-14).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Element {
+    /// 2x2x2 points for the isochoric part, one mean-dilatation pressure (Simo-Taylor-Pister).
+    Q1p0,
+    /// 2x2x2 points for everything.
+    Full,
+    /// Volume-averaged gradients (Flanagan-Belytschko) with hourglass stiffness `hourglass` times G.
+    UniformGradient { hourglass: f64 },
+}
+
+/// A rigid body glued to a node set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rim {
+    pub nodes: NodeSet,
+}
+
+/// Node sets the generators make.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NodeSet {
+    /// Inner cylinder of a ring.
+    Inner,
+    /// Faces of a block.
+    XMin,
+    XMax,
+    YMin,
+    YMax,
+    ZMin,
+    ZMax,
+}
+
+/// Rigid roads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Road {
+    /// The half-space below `point` with outward unit `normal`, moving with `velocity` in its own plane [m/s].
+    Plane { point: [f64; 3], normal: [f64; 3], velocity: [f64; 3] },
+}
+
+/// Friction laws.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Friction {
+    /// Constant coefficient mu > 0 (mu = 0 is read as frictionless: `Scene::friction = None`).
+    Coulomb { mu: f64 },
+}
+
+/// A part of the simulation with its own rim motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stage {
+    pub name: String,
+    pub method: Method,
+    /// Longest duration [s] (an explicit stage lasts exactly this).
+    pub duration: f64,
+    /// Rayleigh mass damping alpha [1/s]; 0: none, and no damping code is composed.
+    pub mass_damping: f64,
+    pub initial_velocity: Option<InitialVelocity>,
+    pub rim: RimMotion,
+}
+
+/// How a stage is solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method {
+    /// Central difference.
+    Explicit,
+    /// Mass-damped relaxation that ends when kinetic/strain energy and relative residual force are small,
+    /// not before all ramps are over; not reaching them within the duration is an error.
+    QuasiStatic { kinetic_ratio: f64, residual: f64 },
+}
+
+/// Velocities set at the start of a stage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum InitialVelocity {
+    /// The rigid velocity of the rim's motion at that moment: v_axle + omega x (x - axle).
+    Rim,
+    /// Everything at rest.
+    Zero,
+}
+
+/// Rim motion by component: translation of the axle point, then steer (about z), camber (about the new x),
+/// spin (about the new axle y).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RimMotion {
+    pub x: Drive,
+    pub y: Drive,
+    pub z: Drive,
+    pub steer: Drive,
+    pub camber: Drive,
+    pub spin: Drive,
+}
+
+/// One component of the rim's motion. Units: m or rad, and s.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Drive {
+    /// Stays where it is.
+    #[default]
+    Hold,
+    /// Displacement from the start of the simulation, reached by a smooth ramp of `ramp` seconds
+    /// from wherever it is at the start of the stage; ramp 0: at once is an error unless nothing moves.
+    Displacement { to: f64, ramp: f64 },
+    /// Velocity, reached by a smooth ramp of `ramp` seconds (0: from the first step on).
+    Velocity { to: f64, ramp: f64 },
+    /// Free, with the rim's own `mass` [kg] (spin: inertia about the axle [kg m2]; the rim nodes' is added)
+    /// and an applied `load` [N] or [N m], reached by a smooth ramp from the last stage's load.
+    /// Translations and spin can be free; steer and camber cannot.
+    Free { mass: f64, load: f64, ramp: f64 },
+}
+
+/// What is written, and how often.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Output {
+    /// Length of a history window [s]: one row of `history.csv` each.
+    pub sample: f64,
+    pub snapshots: Snapshots,
+    pub pictures: Vec<Picture>,
+}
+
+/// When whole fields are written (`.vtu`, `contact_<k>.csv`).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Snapshots {
+    None,
+    /// At the end of every stage.
+    StageEnds,
+    /// Every so many seconds (rounded to whole samples), and at the end of every stage.
+    Every(f64),
+}
+
+/// A picture of every snapshot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Picture {
+    /// The deformed body on the road, coloured by a field.
+    Body(Field),
+    /// Contact forces from below.
+    Footprint,
+}
+
+/// Fields a picture or a viewer can colour by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Field {
+    Displacement,
+    Velocity,
+    ContactForce,
+    Pressure,
+    VolumeRatio,
+    VonMises,
+}
