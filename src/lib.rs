@@ -3,9 +3,13 @@
 //! Everything flows one way; see `ARCHITECTURE.md`.
 #![allow(non_snake_case)] // F, J, W, N: the field's own symbols
 
+pub mod cpu;
+pub mod engine;
 pub mod error;
 pub mod model;
+pub mod physics;
 pub mod record;
+pub mod run;
 pub mod scene;
 
 pub use error::{Error, Result};

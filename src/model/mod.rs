@@ -1,3 +1,108 @@
-//! SI, f64 description of the discrete body: mesh, mass, shape classes.
+//! SI, f64 description of the discrete body: mesh, mass, shape classes, who gathers from whom.
 
+mod classes;
 pub mod mesh;
+
+use crate::error::{Error, Result};
+use crate::physics::element::Class;
+use crate::scene::{Body, Element, Law, Lumping, Scene};
+use mesh::Mesh;
+
+/// The discrete body.
+#[derive(Debug, Clone)]
+pub struct Model {
+    pub mesh: Mesh,
+    pub law: Law,
+    pub element: Element,
+    /// Shear viscosity [Pa s].
+    pub viscosity: Option<f64>,
+    pub density: f64,
+    pub lumping: Lumping,
+    /// Lumped nodal mass [kg], shape `[node_count]`.
+    pub mass: Vec<f64>,
+    /// Distinct reference shapes, and which one each element has, shape `[element_count]`.
+    pub classes: Vec<Class<f64>>,
+    pub class_of: Vec<u32>,
+    /// Element corners at each node: `corners[corner_start[n]..corner_start[n + 1]]` holds 8 element + corner.
+    pub corner_start: Vec<u32>,
+    pub corners: Vec<u32>,
+}
+
+impl Model {
+    /// Meshes a scene. Errors: an inside-out element, a node count beyond 32 bits.
+    pub fn new(scene: &Scene) -> Result<Model> {
+        let body = &scene.body;
+        let mesh = Mesh::generate(&body.mesh, body.offset, scene.rim.as_ref().map(|r| r.nodes));
+        Model::from_mesh(mesh, body).map_err(|element| Error::Scene {
+            file: scene.file.display().to_string(),
+            line: None,
+            key: "body.mesh".into(),
+            problem: format!("element {element} is inside out: det dX/dxi is not positive"),
+            remedy: "every element needs a positive volume at its corners and Gauss points".into(),
+        })
+    }
+
+    /// Assembles any mesh; `Err(element)` names an inside-out element.
+    pub fn from_mesh(mesh: Mesh, body: &Body) -> std::result::Result<Model, usize> {
+        let Body { law, element, viscosity, density, lumping, .. } = *body;
+        let hourglass = match element {
+            Element::UniformGradient { hourglass } => hourglass,
+            Element::Q1p0 | Element::Full => 0.0,
+        };
+        let moduli = [hourglass * law.shear_modulus(), hourglass * viscosity.unwrap_or(0.0)];
+        let (classes, class_of) = classes::find(&mesh, moduli)?;
+        let volumes: Vec<[f64; 8]> = classes.iter().map(|c| c.corner_volumes(lumping)).collect();
+        let mass = lumped_mass(&mesh, &volumes, &class_of, density);
+        let (corner_start, corners) = node_corners(&mesh);
+        Ok(Model {
+            mesh,
+            law,
+            element,
+            viscosity,
+            density,
+            lumping,
+            mass,
+            classes,
+            class_of,
+            corner_start,
+            corners,
+        })
+    }
+
+    pub fn element_count(&self) -> usize {
+        self.mesh.hexes.len()
+    }
+
+    pub fn node_count(&self) -> usize {
+        self.mesh.nodes.len()
+    }
+}
+
+/// Sums of the corner masses by node.
+fn lumped_mass(mesh: &Mesh, volumes: &[[f64; 8]], class_of: &[u32], density: f64) -> Vec<f64> {
+    let mut mass = vec![0.0; mesh.nodes.len()];
+    for (hex, &class) in mesh.hexes.iter().zip(class_of) {
+        for (&node, volume) in hex.iter().zip(volumes[class as usize]) {
+            mass[node as usize] += density * volume;
+        }
+    }
+    mass
+}
+
+/// Corners by node (compressed rows), ascending, so that every gather sums in the same order.
+fn node_corners(mesh: &Mesh) -> (Vec<u32>, Vec<u32>) {
+    let mut start = vec![0u32; mesh.nodes.len() + 1];
+    for &node in mesh.hexes.iter().flatten() {
+        start[node as usize + 1] += 1;
+    }
+    for n in 0..mesh.nodes.len() {
+        start[n + 1] += start[n];
+    }
+    let mut next = start.clone();
+    let mut corners = vec![0u32; 8 * mesh.hexes.len()];
+    for (slot, &node) in mesh.hexes.iter().flatten().enumerate() {
+        corners[next[node as usize] as usize] = slot as u32;
+        next[node as usize] += 1;
+    }
+    (start, corners)
+}

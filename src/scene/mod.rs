@@ -43,6 +43,7 @@ pub struct Body {
     /// Kelvin-Voigt shear viscosity [Pa s]; `None`: purely elastic, and no viscous code is composed.
     pub viscosity: Option<f64>,
     pub element: Element,
+    pub lumping: Lumping,
     /// Velocity of every node at t = 0 [m/s].
     pub velocity: [f64; 3],
     /// Angular velocity at t = 0 about the body's centroid [rad/s].
@@ -94,6 +95,16 @@ pub enum Element {
     Full,
     /// Volume-averaged gradients (Flanagan-Belytschko) with hourglass stiffness `hourglass` times G.
     UniformGradient { hourglass: f64 },
+}
+
+/// How an element's mass is given to its corners.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Lumping {
+    /// Row sums of the consistent mass matrix, rho int N_a dV: keeps the centre of mass. The default.
+    #[default]
+    RowSum,
+    /// An eighth to each corner, as OpenRadioss and others do; the same on parallelepipeds.
+    Equal,
 }
 
 /// A rigid body glued to a node set.

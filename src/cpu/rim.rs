@@ -1,0 +1,54 @@
+//! The rim's own equation of motion, where a component is free.
+
+use crate::engine::{StageSetup, Step};
+use crate::physics::rim::{self, Coordinates, SPIN};
+use glam::DVec3;
+
+/// State of the rim.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RimState {
+    /// Coordinates at t(n), and half-step rates of the free ones.
+    pub q: Coordinates,
+    pub rate: Coordinates,
+    /// Mass of the rim nodes [kg] and their inertia about the axle [kg m2].
+    pub node_mass: f64,
+    pub node_inertia: f64,
+}
+
+/// Force and moment about the axle of the rubber and of body forces on the rim nodes [N, N m].
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Reaction {
+    pub force: [f64; 3],
+    pub moment: [f64; 3],
+}
+
+impl RimState {
+    pub fn is_free(setup: &StageSetup) -> bool {
+        setup.free.iter().any(Option::is_some)
+    }
+
+    /// Coordinates at t(n+1) and the rates that lead there: prescribed components from the plan, free ones from
+    /// the reaction at t(n).
+    pub fn advanced(
+        &self,
+        setup: &StageSetup,
+        step: &Step,
+        reaction: &Reaction,
+    ) -> (Coordinates, Coordinates) {
+        let (mut q, mut rate) = (step.rim, self.rate);
+        for component in 0..6 {
+            let Some(own) = setup.free[component] else { continue };
+            let (inertia, push) = if component == SPIN {
+                let along = rim::axle_direction(&self.q).dot(DVec3::from(reaction.moment));
+                (own + self.node_inertia, along)
+            } else {
+                (own + self.node_mass, reaction.force[component])
+            };
+            let h = 0.5 * setup.mass_damping * step.dtm();
+            let acceleration = (push + step.load[component]) / inertia;
+            rate[component] = ((1.0 - h) * self.rate[component] + step.dtm() * acceleration) / (1.0 + h);
+            q[component] = self.q[component] + step.dt * rate[component];
+        }
+        (q, rate)
+    }
+}

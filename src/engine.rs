@@ -1,0 +1,154 @@
+//! What every engine offers: the CPU's and the GPU's are interchangeable behind [`Engine`].
+
+use crate::error::Result;
+use crate::physics::rim::Coordinates;
+
+/// One step, planned by the host: everything that depends on time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// Time at the start of the step, t(n) [s].
+    pub time: f64,
+    /// dt(n+1/2) [s].
+    pub dt: f64,
+    /// dt(n-1/2) [s]: the step before, 0 where the velocities are those at t(n).
+    pub dt_before: f64,
+    /// Rim coordinates at t(n+1); those of free components are not read.
+    pub rim: Coordinates,
+    /// Applied loads on the free components at t(n) [N, N m].
+    pub load: Coordinates,
+}
+
+impl Step {
+    /// Mean step, over which a force at t(n) acts.
+    pub fn dtm(&self) -> f64 {
+        0.5 * (self.dt_before + self.dt)
+    }
+}
+
+/// What changes from stage to stage.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StageSetup {
+    /// Mass damping [1/s]; 0: none.
+    pub mass_damping: f64,
+    /// The rim's own mass or inertia for every free component [kg, kg m2], `None` where prescribed.
+    pub free: [Option<f64>; 6],
+}
+
+/// Work done on the body, by kind [J]; losses are negative.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Works {
+    /// By the elastic internal force.
+    pub internal: f64,
+    pub viscous: f64,
+    pub damping: f64,
+    pub body_force: f64,
+    /// By the rim on its nodes, their inertia included.
+    pub rim: f64,
+    /// By the normal contact force.
+    pub normal: f64,
+    pub friction: f64,
+}
+
+impl Works {
+    pub fn accumulate(&mut self, other: &Works) {
+        self.internal += other.internal;
+        self.viscous += other.viscous;
+        self.damping += other.damping;
+        self.body_force += other.body_force;
+        self.rim += other.rim;
+        self.normal += other.normal;
+        self.friction += other.friction;
+    }
+
+    /// Everything but the elastic internal work.
+    pub fn without_internal(&self) -> f64 {
+        self.viscous + self.damping + self.body_force + self.rim + self.normal + self.friction
+    }
+}
+
+/// A surface node over a window.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SurfaceSum {
+    /// Position and half-step velocity at the end of the window, absolute [m, m/s].
+    pub x: [f64; 3],
+    pub v: [f64; 3],
+    /// Sum of contact force times mean step [N s].
+    pub impulse: [f64; 3],
+    /// Steps in contact, and those of them that stick.
+    pub touching: u32,
+    pub sticking: u32,
+    /// State in the last step.
+    pub touches: bool,
+    pub sticks: bool,
+}
+
+/// What an engine reports of the steps since the last report.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Window {
+    pub steps: u64,
+    /// Sums over the window's steps of work, of impulses [N s] and impulse moments about the axle [N m s].
+    pub works: Works,
+    pub rim_impulse: [f64; 3],
+    pub rim_moment_impulse: [f64; 3],
+    /// Every surface node (empty without a road).
+    pub surface: Vec<SurfaceSum>,
+    /// Rim coordinates at the end of the window, and rates of the free ones.
+    pub rim: Coordinates,
+    pub rim_rate: Coordinates,
+    /// sum 1/2 m v(n-1/2)^2 [J].
+    pub kinetic: f64,
+    pub probe: Probe,
+    /// Stored energies at x(n) [J] and the smallest det F.
+    pub strain: f64,
+    pub hourglass: f64,
+    pub min_jacobian: f64,
+}
+
+/// The step after the window, computed but not taken: what the stored energy pairs with.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Probe {
+    /// sum 1/2 m v(n-1/2) . v(n+1/2) [J].
+    pub mixed_kinetic: f64,
+    /// Work of the forces at t(n) over the half step before t(n): f(n) . v(n-1/2) dt(n-1/2)/2 [J].
+    pub half_works: Works,
+    /// L2 norms over the nodes that are not the rim's: net force (contact included) and internal force [N].
+    pub net_force: f64,
+    pub internal_force: f64,
+}
+
+/// Positions and half-step velocities of all nodes, absolute, SI, f64.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct State {
+    pub x: Vec<[f64; 3]>,
+    pub v: Vec<[f64; 3]>,
+}
+
+/// Who computes.
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize)]
+pub struct EngineInfo {
+    /// "cpu" or "gpu"
+    pub engine: String,
+    /// "f64", "f32", "f32+"
+    pub precision: String,
+    /// Adapter or processor, and its driver.
+    pub device: String,
+    pub driver: String,
+    pub threads: usize,
+}
+
+/// An explicit engine. Steps are taken exactly as planned; sums are kept from every step.
+pub trait Engine {
+    fn info(&self) -> EngineInfo;
+    /// Starts a stage: damping and which rim components are free.
+    fn begin_stage(&mut self, setup: &StageSetup) -> Result<()>;
+    /// Takes the steps. On failure the state is that of the failing step and the error names it.
+    fn advance(&mut self, steps: &[Step]) -> Result<()>;
+    /// Reports and clears the sums; `next` is the step that would come (for the probe), it is not taken.
+    fn sample(&mut self, next: &Step) -> Result<Window>;
+    /// The whole state.
+    fn state(&mut self) -> Result<State>;
+    /// Sets every velocity, and the rates of free rim components.
+    fn set_velocity(&mut self, v: &[[f64; 3]], rim_rate: &Coordinates) -> Result<()>;
+    /// Internal force [N] at any positions and velocities, by the engine's own force pass; the state is not touched.
+    fn force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>>;
+}

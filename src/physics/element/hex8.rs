@@ -1,0 +1,245 @@
+//! What the formulations share: gradients at the 2x2x2 Gauss points by sum factorisation, the force matrix at a
+//! point, and the reference geometry of a shape class.
+//!
+//! dx/dxi depends on (eta, zeta) only: at the four Gauss lines it is a bilinear interpolation of the four edge
+//! differences along xi. The same (symmetric) interpolation takes force columns back to the edges.
+
+use crate::physics::material::{Derivatives, Law};
+use crate::physics::scalar::Scalar;
+use crate::physics::tensor::{Mat3, Sym3, Vec3, add, axpy, cofactor, det, dot, scale, sub};
+use crate::scene::Lumping;
+
+/// One vector a corner, numbered as in [`crate::model::mesh`].
+pub type Corners<S> = [Vec3<S>; 8];
+
+/// Edges (from, to) along each direction d; the edge index is the sign bits of the other two directions,
+/// lower direction first.
+pub const EDGES: [[(usize, usize); 4]; 3] =
+    [[(0, 1), (3, 2), (4, 5), (7, 6)], [(0, 3), (1, 2), (4, 7), (5, 6)], [(0, 4), (1, 5), (3, 7), (2, 6)]];
+
+/// Hourglass patterns Gamma_h: eta zeta, xi zeta, xi eta, xi eta zeta at the corners.
+pub const HOURGLASS: [[f64; 8]; 4] = [
+    [1., 1., -1., -1., -1., -1., 1., 1.],
+    [1., -1., -1., 1., -1., 1., 1., -1.],
+    [1., -1., 1., -1., 1., -1., 1., -1.],
+    [-1., 1., -1., 1., 1., -1., 1., -1.],
+];
+
+/// Gauss abscissa 1/sqrt(3).
+pub const GAUSS: f64 = 0.577_350_269_189_625_8;
+
+/// Edge (or line) indices of the three columns at point q, whose bits are the signs of (xi, eta, zeta).
+#[inline(always)]
+pub const fn lines(q: usize) -> [usize; 3] {
+    let (a, b, c) = (q & 1, (q >> 1) & 1, (q >> 2) & 1);
+    [b + 2 * c, a + 2 * c, a + 2 * b]
+}
+
+/// Columns of A on the Gauss lines: `columns[d][line]`.
+pub type LineColumns<S> = [[Vec3<S>; 4]; 3];
+
+/// Values on four Gauss lines from values on four edges; symmetric, so its own transpose.
+#[inline(always)]
+fn interpolate<S: Scalar>(e: [Vec3<S>; 4]) -> [Vec3<S>; 4] {
+    let near = S::from_f64(0.5 * (1.0 + GAUSS));
+    let far = S::from_f64(0.5 * (1.0 - GAUSS));
+    let mix = |a: Vec3<S>, b: Vec3<S>| axpy(a, near, scale(b, far));
+    let (a0, a1) = (mix(e[0], e[1]), mix(e[1], e[0]));
+    let (b0, b1) = (mix(e[2], e[3]), mix(e[3], e[2]));
+    [mix(a0, b0), mix(a1, b1), mix(b0, a0), mix(b1, a1)]
+}
+
+/// A = dx/dxi on the Gauss lines.
+#[inline(always)]
+pub fn gradients<S: Scalar>(x: &Corners<S>) -> LineColumns<S> {
+    let half = S::from_f64(0.5);
+    EDGES.map(|edges| interpolate(edges.map(|(a, b)| scale(sub(x[b], x[a]), half))))
+}
+
+/// A at point q.
+#[inline(always)]
+pub fn at<S: Scalar>(columns: &LineColumns<S>, q: usize) -> Mat3<S> {
+    let [i, j, k] = lines(q);
+    [columns[0][i], columns[1][j], columns[2][k]]
+}
+
+/// Adds the force matrix of point q to the lines.
+#[inline(always)]
+pub fn accumulate<S: Scalar>(lines_force: &mut LineColumns<S>, q: usize, g: &Mat3<S>) {
+    for (d, line) in lines(q).into_iter().enumerate() {
+        lines_force[d][line] = add(lines_force[d][line], g[d]);
+    }
+}
+
+/// Corner forces sum_q sum_d G_d dN_a/dxi_d from the sums on the lines.
+#[inline(always)]
+pub fn scatter<S: Scalar>(lines_force: &LineColumns<S>) -> Corners<S> {
+    let half = S::from_f64(0.5);
+    let mut f = [[S::zero(); 3]; 8];
+    for d in 0..3 {
+        let edges = interpolate(lines_force[d]);
+        for (&(a, b), g) in EDGES[d].iter().zip(edges) {
+            let g = scale(g, half);
+            f[a] = sub(f[a], g);
+            f[b] = add(f[b], g);
+        }
+    }
+    f
+}
+
+/// Invariants and the products the force needs at a point.
+#[derive(Clone, Copy)]
+pub struct Kinematics<S> {
+    /// A M
+    pub am: Mat3<S>,
+    /// A^T A M, whose trace is I1; columns
+    gram_m: Mat3<S>,
+    pub i1: S,
+    pub i2: S,
+}
+
+/// I1 and, where the law wants it, I2 of C = J0^-T A^T A J0^-1.
+#[inline(always)]
+pub fn kinematics<S: Scalar, L: Law<S>>(a: &Mat3<S>, m: &Sym3<S>) -> Kinematics<S> {
+    let am = m.left_multiplied(a);
+    if !L::HAS_I2 {
+        let i1 = dot(a[0], am[0]) + dot(a[1], am[1]) + dot(a[2], am[2]);
+        return Kinematics { am, gram_m: [[S::zero(); 3]; 3], i1, i2: S::zero() };
+    }
+    let gram_m = am.map(|c| [dot(a[0], c), dot(a[1], c), dot(a[2], c)]);
+    let i1 = gram_m[0][0] + gram_m[1][1] + gram_m[2][2];
+    // tr(C^2) = sum_ij N_ij N_ji with N = A^T A M
+    let square = |d: usize| gram_m[d][d] * gram_m[d][d];
+    let twice = |d: usize, e: usize| (gram_m[d][e] * gram_m[e][d]) + (gram_m[d][e] * gram_m[e][d]);
+    let trace_c2 = square(0) + square(1) + square(2) + twice(0, 1) + twice(0, 2) + twice(1, 2);
+    Kinematics { am, gram_m, i1, i2: (i1 * i1 - trace_c2) * S::from_f64(0.5) }
+}
+
+/// Force matrix at a point, columns G_d with f_a = sum_d G_d dN_a/dxi_d:
+/// det J0 (2 W1 A M + 2 W2 (I1 A M - A M A^T A M)) + (WJ + p) cof A.
+#[inline(always)]
+pub fn force_matrix<S: Scalar, L: Law<S>>(
+    k: &Kinematics<S>,
+    d: &Derivatives<S>,
+    pressure: S,
+    cof: &Mat3<S>,
+    det_j0: S,
+) -> Mat3<S> {
+    let two = det_j0 + det_j0;
+    let volumetric = d.wj + pressure;
+    if !L::HAS_I2 {
+        let c1 = two * d.w1;
+        return [0, 1, 2].map(|c| axpy(k.am[c], c1, scale(cof[c], volumetric)));
+    }
+    let c2 = two * d.w2;
+    let c1 = two * d.w1 + c2 * k.i1;
+    [0, 1, 2].map(|c| {
+        let n = k.gram_m[c];
+        let amn = axpy(k.am[0], n[0], axpy(k.am[1], n[1], scale(k.am[2], n[2])));
+        axpy(amn, -c2, axpy(k.am[c], c1, scale(cof[c], volumetric)))
+    })
+}
+
+/// Reference geometry shared by all elements that differ by a rigid motion only.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Class<S> {
+    /// M = J0^-1 J0^-T at the points [1/m2].
+    pub metric: [Sym3<S>; 8],
+    /// det J0 at the points (the Gauss weights are one) [m3].
+    pub det_j0: [S; 8],
+    /// V = sum det J0 [m3], and its reciprocal.
+    pub volume: S,
+    pub inverse_volume: S,
+    /// Volume-averaged gradients b_a of the class's first element [1/m].
+    pub gradient: Corners<S>,
+    /// Gamma_h . X of the class's first element [m].
+    pub gamma_x: [Vec3<S>; 4],
+    /// Hourglass stiffness c G V sum_a |b_a|^2 / 8 [N/m], and the same with eta for G [N s/m].
+    pub hourglass_stiffness: S,
+    pub hourglass_viscosity: S,
+}
+
+impl Class<f64> {
+    /// Geometry of an element with reference corners `X`; `hourglass_modulus` = c G and `hourglass_eta` = c eta.
+    /// `None` if det J0 is not positive at a point or a corner (an inside-out element).
+    pub fn new(X: &Corners<f64>, hourglass_modulus: f64, hourglass_eta: f64) -> Option<Self> {
+        let columns = gradients(X);
+        let j0: [Mat3<f64>; 8] = std::array::from_fn(|q| at(&columns, q));
+        let det_j0 = j0.map(|j| det(&j));
+        let positive = |d: f64| d > 0.0;
+        if !det_j0.iter().copied().all(positive) || !corner_jacobians(X).into_iter().all(positive) {
+            return None;
+        }
+        let volume: f64 = det_j0.iter().sum();
+        // int dN_a/dX dV = sum_q cof(J0) grad_xi N, the force of a unit pressure
+        let mut unit = [[[0.0; 3]; 4]; 3];
+        for (q, j) in j0.iter().enumerate() {
+            accumulate(&mut unit, q, &cofactor(j));
+        }
+        let gradient = scatter(&unit).map(|g| scale(g, 1.0 / volume));
+        let b2: f64 = gradient.iter().map(|&b| dot(b, b)).sum();
+        let gamma_x = HOURGLASS.map(|h| (0..8).fold([0.0; 3], |sum, a| axpy(X[a], h[a], sum)));
+        let metric = std::array::from_fn(|q| metric(&j0[q]));
+        Some(Class {
+            metric,
+            det_j0,
+            volume,
+            inverse_volume: 1.0 / volume,
+            gradient,
+            gamma_x,
+            hourglass_stiffness: hourglass_modulus * volume * b2 / 8.0,
+            hourglass_viscosity: hourglass_eta * volume * b2 / 8.0,
+        })
+    }
+
+    /// What each corner has of the volume [m3], the lumped mass over the density: int N_a dV, or an eighth.
+    pub fn corner_volumes(&self, lumping: Lumping) -> [f64; 8] {
+        if lumping == Lumping::Equal {
+            return [self.volume / 8.0; 8];
+        }
+        let mut volumes = [0.0; 8];
+        for (q, d) in self.det_j0.iter().enumerate() {
+            let point = [q & 1, (q >> 1) & 1, (q >> 2) & 1].map(|bit| if bit == 1 { GAUSS } else { -GAUSS });
+            for (a, s) in crate::model::mesh::SIGNS.iter().enumerate() {
+                let n: f64 = (0..3).map(|d| 0.5 * (1.0 + s[d] * point[d])).product();
+                volumes[a] += n * d;
+            }
+        }
+        volumes
+    }
+
+    /// The same geometry in another scalar.
+    pub fn cast<S: Scalar>(&self) -> Class<S> {
+        let s = S::from_f64;
+        let v = |v: Vec3<f64>| v.map(s);
+        Class {
+            metric: self.metric.map(|m| m.map(s)),
+            det_j0: self.det_j0.map(s),
+            volume: s(self.volume),
+            inverse_volume: s(self.inverse_volume),
+            gradient: self.gradient.map(v),
+            gamma_x: self.gamma_x.map(v),
+            hourglass_stiffness: s(self.hourglass_stiffness),
+            hourglass_viscosity: s(self.hourglass_viscosity),
+        }
+    }
+}
+
+/// M = J0^-1 J0^-T from the columns of J0: rows of J0^-1 are cof(J0)_d / det.
+fn metric(j0: &Mat3<f64>) -> Sym3<f64> {
+    let (c, d) = (cofactor(j0), det(j0));
+    let m = |i: usize, j: usize| dot(c[i], c[j]) / (d * d);
+    Sym3 { xx: m(0, 0), yy: m(1, 1), zz: m(2, 2), xy: m(0, 1), xz: m(0, 2), yz: m(1, 2) }
+}
+
+/// det dX/dxi at the eight corners: a trilinear map can be positive at the points and fold at a corner.
+pub fn corner_jacobians(X: &Corners<f64>) -> [f64; 8] {
+    std::array::from_fn(|a| {
+        let columns = EDGES.map(|edges| {
+            let (from, to) =
+                edges.into_iter().find(|&(f, t)| f == a || t == a).expect("every corner ends an edge");
+            scale(sub(X[to], X[from]), 0.5)
+        });
+        det(&columns)
+    })
+}

@@ -1,0 +1,100 @@
+use super::hex8::{self, Class, Corners};
+use super::{Energy, Force, Formulation};
+use crate::physics::material::{Law, Viscosity};
+use crate::physics::scalar::Scalar;
+use crate::physics::tensor::{Mat3, cofactor, det, dot};
+
+/// 2x2x2 points for the isochoric part, one element pressure p = U'(v/V) (Simo, Taylor & Pister's mean
+/// dilatation): no volumetric locking. v = sum det A is exact, and dv/dx_a comes from cof A.
+#[derive(Debug, Clone, Copy)]
+pub struct Q1p0;
+
+impl Formulation for Q1p0 {
+    #[inline(always)]
+    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>>(
+        law: &L,
+        viscosity: &V,
+        class: &Class<S>,
+        x: &Corners<S>,
+        v: &Corners<S>,
+    ) -> Force<S> {
+        let columns = hex8::gradients(x);
+        let volume = current_volume(&columns);
+        let pressure = law.dU(volume * class.inverse_volume);
+        points(law, viscosity, class, &columns, v, |_| pressure)
+    }
+
+    #[inline(always)]
+    fn energy<S: Scalar, L: Law<S>>(law: &L, class: &Class<S>, x: &Corners<S>) -> Energy<S> {
+        let columns = hex8::gradients(x);
+        let volume = current_volume(&columns);
+        let mut energy = pointwise_energy(law, class, &columns, |_| S::zero());
+        energy.strain += class.volume * law.U(volume * class.inverse_volume);
+        energy
+    }
+}
+
+#[inline(always)]
+fn current_volume<S: Scalar>(columns: &hex8::LineColumns<S>) -> S {
+    let mut volume = S::zero();
+    for q in 0..8 {
+        volume += det(&hex8::at(columns, q));
+    }
+    volume
+}
+
+/// The loop over points, with the pressure as a function of the point's J.
+#[inline(always)]
+pub(super) fn points<S: Scalar, L: Law<S>, V: Viscosity<S>>(
+    law: &L,
+    viscosity: &V,
+    class: &Class<S>,
+    columns: &hex8::LineColumns<S>,
+    v: &Corners<S>,
+    pressure: impl Fn(S) -> S,
+) -> Force<S> {
+    let zero = S::zero();
+    let rates = if V::ON { hex8::gradients(v) } else { [[[zero; 3]; 4]; 3] };
+    let mut lines = [[[zero; 3]; 4]; 3];
+    let (mut min_j, mut power) = (S::from_f64(1e30), zero);
+    for q in 0..8 {
+        let a = hex8::at(columns, q);
+        let cof = cofactor(&a);
+        let det_a = dot(a[0], cof[0]);
+        let j = det_a / class.det_j0[q];
+        let k = hex8::kinematics::<S, L>(&a, &class.metric[q]);
+        let d = law.first_piola(k.i1, k.i2, j);
+        let mut g = hex8::force_matrix::<S, L>(&k, &d, pressure(j), &cof, class.det_j0[q]);
+        if V::ON {
+            let (viscous, point_power) = viscosity.stress(&hex8::at(&rates, q), &cof, det_a);
+            g = sum(g, viscous);
+            power += point_power;
+        }
+        min_j = min_j.min(j);
+        hex8::accumulate(&mut lines, q, &g);
+    }
+    Force { f: hex8::scatter(&lines), min_j, viscous_power: power }
+}
+
+#[inline(always)]
+pub(super) fn pointwise_energy<S: Scalar, L: Law<S>>(
+    law: &L,
+    class: &Class<S>,
+    columns: &hex8::LineColumns<S>,
+    volumetric: impl Fn(S) -> S,
+) -> Energy<S> {
+    let (mut strain, mut min_j) = (S::zero(), S::from_f64(1e30));
+    for q in 0..8 {
+        let a = hex8::at(columns, q);
+        let j = det(&a) / class.det_j0[q];
+        let k = hex8::kinematics::<S, L>(&a, &class.metric[q]);
+        strain += class.det_j0[q] * (law.psi(k.i1, k.i2, j) + volumetric(j));
+        min_j = min_j.min(j);
+    }
+    Energy { strain, hourglass: S::zero(), min_j }
+}
+
+#[inline(always)]
+pub(super) fn sum<S: Scalar>(a: Mat3<S>, b: Mat3<S>) -> Mat3<S> {
+    [0, 1, 2].map(|c| crate::physics::tensor::add(a[c], b[c]))
+}

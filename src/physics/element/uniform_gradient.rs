@@ -1,0 +1,118 @@
+use super::hex8::{self, Class, Corners, HOURGLASS};
+use super::q1p0::sum;
+use super::{Energy, Force, Formulation};
+use crate::physics::material::{Law, Viscosity};
+use crate::physics::scalar::Scalar;
+use crate::physics::tensor::{Mat3, Sym3, Vec3, add, axpy, cofactor, det, dot, scale, sub};
+
+/// Volume-averaged gradients (Flanagan & Belytschko 1981) and hourglass stiffness on gamma-vectors formed on the
+/// reference shape, orthogonal to every affine field: a rigid rotation makes no hourglass force.
+///
+/// With b and X of the class's first element, F' = sum x_a (x) b_a differs from F by the element's own rotation on
+/// the right only, which isotropic laws do not see. Hourglass:
+/// q_h = sum_a Gamma_h,a x_a - F' (Gamma_h . X), E = k/2 sum |q_h|^2, f_a = V P' b_a + k sum_h q_h Gamma_h,a with
+/// P' less (k/V) sum_h q_h (x) (Gamma_h . X).
+#[derive(Debug, Clone, Copy)]
+pub struct UniformGradient;
+
+impl Formulation for UniformGradient {
+    #[inline(always)]
+    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>>(
+        law: &L,
+        viscosity: &V,
+        class: &Class<S>,
+        x: &Corners<S>,
+        v: &Corners<S>,
+    ) -> Force<S> {
+        let f = mean_gradient(class, x);
+        let cof = cofactor(&f);
+        let j = dot(f[0], cof[0]);
+        let k = hex8::kinematics::<S, L>(&f, &identity());
+        let d = law.first_piola(k.i1, k.i2, j);
+        let mut p = hex8::force_matrix::<S, L>(&k, &d, law.dU(j), &cof, S::one());
+        let mut hourglass = hourglass_modes(class, x, &f).map(|q| scale(q, class.hourglass_stiffness));
+        let mut power = S::zero();
+        if V::ON {
+            let rate = mean_gradient(class, v);
+            let (viscous, density) = viscosity.stress(&rate, &cof, j);
+            p = sum(p, viscous);
+            power += density * class.volume;
+            for (h, q) in hourglass_modes(class, v, &rate).into_iter().enumerate() {
+                hourglass[h] = axpy(q, class.hourglass_viscosity, hourglass[h]);
+                power += class.hourglass_viscosity * dot(q, q);
+            }
+        }
+        Force { f: corner_forces(class, &p, &hourglass), min_j: j, viscous_power: power }
+    }
+
+    #[inline(always)]
+    fn energy<S: Scalar, L: Law<S>>(law: &L, class: &Class<S>, x: &Corners<S>) -> Energy<S> {
+        let f = mean_gradient(class, x);
+        let j = det(&f);
+        let k = hex8::kinematics::<S, L>(&f, &identity());
+        let mut q2 = S::zero();
+        for q in hourglass_modes(class, x, &f) {
+            q2 += dot(q, q);
+        }
+        Energy {
+            strain: class.volume * (law.psi(k.i1, k.i2, j) + law.U(j)),
+            hourglass: class.hourglass_stiffness * S::from_f64(0.5) * q2,
+            min_j: j,
+        }
+    }
+}
+
+#[inline(always)]
+fn identity<S: Scalar>() -> Sym3<S> {
+    let (o, i) = (S::zero(), S::one());
+    Sym3 { xx: i, yy: i, zz: i, xy: o, xz: o, yz: o }
+}
+
+/// Columns of sum_a x_a (x) b_a.
+#[inline(always)]
+fn mean_gradient<S: Scalar>(class: &Class<S>, x: &Corners<S>) -> Mat3<S> {
+    let mut f = [[S::zero(); 3]; 3];
+    // Differences first: sum_a b_a = 0, so a shift of all corners must not cost digits.
+    for a in 1..8 {
+        let u = sub(x[a], x[0]);
+        for c in 0..3 {
+            f[c] = axpy(u, class.gradient[a][c], f[c]);
+        }
+    }
+    f
+}
+
+/// q_h for the four patterns.
+#[inline(always)]
+fn hourglass_modes<S: Scalar>(class: &Class<S>, x: &Corners<S>, f: &Mat3<S>) -> [Vec3<S>; 4] {
+    let mut modes = [[S::zero(); 3]; 4];
+    for (h, mode) in modes.iter_mut().enumerate() {
+        for a in 1..8 {
+            let u = sub(x[a], x[0]);
+            *mode = if HOURGLASS[h][a] > 0.0 { add(*mode, u) } else { sub(*mode, u) };
+        }
+        let g = class.gamma_x[h];
+        *mode = sub(*mode, axpy(f[0], g[0], axpy(f[1], g[1], scale(f[2], g[2]))));
+    }
+    modes
+}
+
+/// f_a = V (P - sum_h r_h (x) (Gamma_h . X) / V) b_a + sum_h r_h Gamma_h,a with r_h the hourglass forces.
+#[inline(always)]
+fn corner_forces<S: Scalar>(class: &Class<S>, p: &Mat3<S>, hourglass: &[Vec3<S>; 4]) -> Corners<S> {
+    let mut p: Mat3<S> = p.map(|c| scale(c, class.volume));
+    for (r, g) in hourglass.iter().zip(&class.gamma_x) {
+        for c in 0..3 {
+            p[c] = axpy(*r, -g[c], p[c]);
+        }
+    }
+    let mut f = [[S::zero(); 3]; 8];
+    for a in 0..8 {
+        let b = class.gradient[a];
+        f[a] = axpy(p[0], b[0], axpy(p[1], b[1], scale(p[2], b[2])));
+        for (h, r) in hourglass.iter().enumerate() {
+            f[a] = if HOURGLASS[h][a] > 0.0 { add(f[a], *r) } else { sub(f[a], *r) };
+        }
+    }
+    f
+}

@@ -1,0 +1,134 @@
+//! From windows to history rows: totals, balances, means.
+
+use super::fields::contact_areas;
+use crate::engine::{Window, Works};
+use crate::model::Model;
+use crate::record::Sample;
+use crate::scene::Road;
+
+/// Running totals of a simulation.
+#[derive(Debug, Clone, Default)]
+pub struct Ledger {
+    works: Works,
+    /// Kinetic energy put in by setting velocities [J], as the two balances see it.
+    given_kinetic: f64,
+    given_mixed: f64,
+    /// Energies of the last window.
+    kinetic: f64,
+    mixed_kinetic: f64,
+    started: bool,
+    strain_start: f64,
+    /// Largest single term so far [J]: what errors are relative to.
+    pub largest_term: f64,
+    pub worst_balance: f64,
+    pub worst_stored_balance: f64,
+    /// Deepest gap of a surface node at any sample [m]; not negative up to round-off.
+    pub worst_gap: f64,
+}
+
+/// Where and when a window ends.
+#[derive(Debug, Clone)]
+pub struct WindowEnd {
+    pub time: f64,
+    pub length: f64,
+    pub dt: f64,
+    pub stage: usize,
+}
+
+impl Ledger {
+    /// Velocities were set: `kinetic` is the new kinetic energy, at rest of nothing stored.
+    pub fn velocities_set(&mut self, kinetic: f64) {
+        self.given_kinetic += kinetic - self.kinetic;
+        self.given_mixed += kinetic - self.mixed_kinetic;
+        (self.kinetic, self.mixed_kinetic) = (kinetic, kinetic);
+    }
+
+    /// The stored energy before the first step.
+    pub fn start(&mut self, strain: f64) {
+        (self.started, self.strain_start) = (true, strain);
+    }
+
+    /// Books a window and makes its row.
+    pub fn row(&mut self, model: &Model, road: Option<&Road>, end: &WindowEnd, w: &Window) -> Sample {
+        debug_assert!(self.started);
+        self.works.accumulate(&w.works);
+        (self.kinetic, self.mixed_kinetic) = (w.kinetic, w.probe.mixed_kinetic);
+        let works = &self.works;
+        let outer = works.without_internal();
+        let balance = w.kinetic - self.given_kinetic - (outer + works.internal);
+        let stored = w.strain + w.hourglass - self.strain_start + w.probe.mixed_kinetic
+            - self.given_mixed
+            - (outer + w.probe.half_works.without_internal());
+        let terms = [
+            w.kinetic,
+            w.strain,
+            self.given_kinetic,
+            works.internal,
+            works.viscous,
+            works.damping,
+            works.body_force,
+            works.rim,
+            works.normal,
+            works.friction,
+        ];
+        self.largest_term = terms.iter().fold(self.largest_term, |m, t| m.max(t.abs()));
+        self.worst_balance = self.worst_balance.max(balance.abs());
+        self.worst_stored_balance = self.worst_stored_balance.max(stored.abs());
+        let mut row = contact_part(model, road, w);
+        if let Some(gap) = lowest_gap(road, w) {
+            self.worst_gap = self.worst_gap.min(gap);
+        }
+        let mean = |i: f64| i / end.length;
+        let road_impulse = |d: usize| w.surface.iter().map(|s| s.impulse[d]).sum::<f64>();
+        [row.road_fx_N, row.road_fy_N, row.road_fz_N] = [0, 1, 2].map(|d| mean(road_impulse(d)));
+        [row.rim_fx_N, row.rim_fy_N, row.rim_fz_N] = w.rim_impulse.map(mean);
+        [row.rim_mx_Nm, row.rim_my_Nm, row.rim_mz_Nm] = w.rim_moment_impulse.map(mean);
+        [row.axle_x_m, row.axle_y_m, row.axle_z_m] = [w.rim[0], w.rim[1], w.rim[2]];
+        Sample {
+            time_s: end.time,
+            stage: end.stage,
+            rim_angle_rad: w.rim[crate::physics::rim::SPIN],
+            kinetic_J: w.kinetic,
+            strain_J: w.strain,
+            hourglass_J: w.hourglass,
+            external_work_J: works.rim + works.body_force,
+            friction_work_J: works.friction,
+            contact_work_J: works.normal,
+            damping_work_J: works.damping,
+            viscous_work_J: works.viscous,
+            balance_error_J: balance,
+            stored_balance_error_J: stored,
+            min_jacobian: w.min_jacobian,
+            dt_s: end.dt,
+            ..row
+        }
+    }
+}
+
+/// Area, number and sticking share of the touching nodes.
+fn contact_part(model: &Model, road: Option<&Road>, w: &Window) -> Sample {
+    let mut row = Sample::default();
+    let Some(road) = road else { return row };
+    let touching: u64 = w.surface.iter().map(|s| u64::from(s.touching)).sum();
+    if touching == 0 {
+        return row;
+    }
+    let sticking: u64 = w.surface.iter().map(|s| u64::from(s.sticking)).sum();
+    let at = |n: u32| match model.mesh.surface.binary_search(&n) {
+        Ok(k) => w.surface[k].x,
+        // A rim node: no road contact, and only the corner of a facet beside one.
+        Err(_) => model.mesh.nodes[n as usize],
+    };
+    let areas = contact_areas(&model.mesh, at, road);
+    let share = |s: &crate::engine::SurfaceSum| f64::from(s.touching) / w.steps as f64;
+    row.contact_area_m2 = w.surface.iter().zip(&areas).map(|(s, a)| share(s) * a).sum();
+    row.contact_nodes = touching as f64 / w.steps as f64;
+    row.sticking_share = sticking as f64 / touching as f64;
+    row
+}
+
+fn lowest_gap(road: Option<&Road>, w: &Window) -> Option<f64> {
+    let Some(Road::Plane { point, normal, .. }) = road else { return None };
+    let gap = |x: &[f64; 3]| (0..3).map(|d| normal[d] * (x[d] - point[d])).sum::<f64>();
+    w.surface.iter().map(|s| gap(&s.x)).min_by(f64::total_cmp)
+}

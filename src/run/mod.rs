@@ -1,0 +1,296 @@
+//! The loop over an [`Engine`]: stages, windows, steps; histories, fields and the critical step on the way.
+
+mod fields;
+mod lanczos;
+mod ledger;
+mod motion;
+pub mod stability;
+
+pub use fields::contact_areas;
+pub use ledger::Ledger;
+pub use motion::Motion;
+
+use crate::engine::{Engine, Window};
+use crate::error::{Error, Result};
+use crate::model::Model;
+use crate::physics::rim;
+use crate::record::{Sample, Snapshot};
+use crate::scene::{InitialVelocity, Method, Scene, Snapshots, Stage};
+use glam::DVec3;
+use ledger::WindowEnd;
+use stability::Critical;
+
+/// Where a simulation stands.
+#[derive(Debug, Clone, Copy)]
+pub struct Progress<'a> {
+    pub stage: &'a str,
+    pub time: f64,
+    /// Latest possible end of the simulation [s]; a quasi-static stage may end sooner.
+    pub end: f64,
+    pub steps: u64,
+}
+
+/// Who listens to a simulation.
+pub trait Observer {
+    /// A window has ended.
+    fn sample(&mut self, sample: &Sample, progress: &Progress) -> Result<()>;
+    /// Whole fields, as often as the scene asks.
+    fn snapshot(&mut self, snapshot: &Snapshot, stage: &str) -> Result<()>;
+    /// Asked after every window: end here, keeping everything.
+    fn interrupted(&self) -> bool {
+        false
+    }
+}
+
+/// What a finished simulation knows of itself.
+#[derive(Debug, Clone, Default)]
+pub struct Totals {
+    pub steps: u64,
+    pub time: f64,
+    pub dt_min: f64,
+    pub dt_max: f64,
+    /// First and smallest critical step found [s], and the bound from single elements at rest.
+    pub critical_first: f64,
+    pub critical_min: f64,
+    pub element_bound: f64,
+    /// Eigenvalue iterations spent on it (two force passes each).
+    pub lanczos_iterations: usize,
+    pub ledger: Ledger,
+    /// Whether an observer ended it.
+    pub interrupted: bool,
+}
+
+/// Runs every stage of a scene.
+pub fn run(
+    scene: &Scene,
+    model: &Model,
+    engine: &mut dyn Engine,
+    observer: &mut dyn Observer,
+) -> Result<Totals> {
+    let mut run = Run::new(scene, model, engine, observer)?;
+    for (index, stage) in scene.stages.iter().enumerate() {
+        run.stage(index, stage)?;
+        if run.totals.interrupted {
+            break;
+        }
+    }
+    Ok(run.totals)
+}
+
+struct Run<'a> {
+    scene: &'a Scene,
+    model: &'a Model,
+    engine: &'a mut dyn Engine,
+    observer: &'a mut dyn Observer,
+    totals: Totals,
+    motion: Motion,
+    rim: rim::Coordinates,
+    rim_rate: rim::Coordinates,
+    dt_before: f64,
+    critical: Critical,
+    /// Step count at which the critical step is looked at again, and how long the last answer held.
+    refresh_at: u64,
+    refresh_interval: u64,
+    next_snapshot: f64,
+    end: f64,
+    /// Kinetic over strain energy and relative net force at the last window.
+    last_ratios: [f64; 2],
+}
+
+impl<'a> Run<'a> {
+    fn new(
+        scene: &'a Scene,
+        model: &'a Model,
+        engine: &'a mut dyn Engine,
+        observer: &'a mut dyn Observer,
+    ) -> Result<Self> {
+        let [x, y, z] = model.mesh.axle;
+        let rim = [x, y, z, 0.0, 0.0, 0.0];
+        let mut totals = Totals { element_bound: stability::element_bound(model)?, ..Totals::default() };
+        totals.dt_min = f64::INFINITY;
+        totals.critical_min = f64::INFINITY;
+        // The mesh generators' reference shape stores nothing.
+        totals.ledger.start(0.0);
+        let mut run = Run {
+            scene,
+            model,
+            engine,
+            observer,
+            totals,
+            motion: Motion::at_rest(rim),
+            rim,
+            rim_rate: [0.0; 6],
+            dt_before: 0.0,
+            critical: Critical::default(),
+            refresh_at: 0,
+            refresh_interval: 0,
+            next_snapshot: 0.0,
+            end: scene.stages.iter().map(|s| s.duration).sum(),
+            last_ratios: [f64::INFINITY; 2],
+        };
+        run.start_body()?;
+        Ok(run)
+    }
+
+    /// The body's own initial velocity: v + omega x (x - centroid).
+    fn start_body(&mut self) -> Result<()> {
+        let body = &self.scene.body;
+        let (model, total) = (self.model, self.model.mass.iter().sum::<f64>());
+        let position = |n: usize| DVec3::from(model.mesh.nodes[n]);
+        let moment: DVec3 = (0..model.node_count()).map(|n| position(n) * model.mass[n]).sum();
+        let centroid = moment / total;
+        let (v, omega) = (DVec3::from(body.velocity), DVec3::from(body.angular_velocity));
+        if v == DVec3::ZERO && omega == DVec3::ZERO {
+            return Ok(());
+        }
+        self.set_velocities(|x| v + omega.cross(x - centroid))
+    }
+
+    fn set_velocities(&mut self, field: impl Fn(DVec3) -> DVec3) -> Result<()> {
+        let x = self.engine.state()?.x;
+        let v: Vec<[f64; 3]> = x.iter().map(|&x| field(DVec3::from(x)).to_array()).collect();
+        self.engine.set_velocity(&v, &self.rim_rate)?;
+        let square = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>();
+        let kinetic = v.iter().zip(&self.model.mass).map(|(v, m)| 0.5 * m * square(v)).sum();
+        self.totals.ledger.velocities_set(kinetic);
+        self.dt_before = 0.0;
+        Ok(())
+    }
+
+    fn stage(&mut self, index: usize, stage: &Stage) -> Result<()> {
+        let start = self.totals.time;
+        self.motion = self.motion.next(stage, start, self.rim);
+        self.engine.begin_stage(&self.motion.setup(stage.mass_damping))?;
+        match stage.initial_velocity {
+            Some(InitialVelocity::Rim) => self.start_with_rim(start)?,
+            Some(InitialVelocity::Zero) => {
+                self.rim_rate = [0.0; 6];
+                self.set_velocities(|_| DVec3::ZERO)?;
+            }
+            None => {}
+        }
+        self.next_snapshot = match self.scene.output.snapshots {
+            Snapshots::Every(interval) => start + interval,
+            _ => f64::INFINITY,
+        };
+        // Whole windows, the last one cut at the end of the stage.
+        let end = start + stage.duration;
+        let sample = self.scene.output.sample;
+        let count = (stage.duration / sample - 1e-9).ceil().max(1.0) as u64;
+        for n in 1..=count {
+            let window_end = if n == count { end } else { start + n as f64 * sample };
+            let window = self.window(index, stage, window_end)?;
+            let settled = self.has_settled(stage, &window);
+            let last = n == count || settled;
+            self.snapshots(stage, &window, last)?;
+            if self.observer.interrupted() {
+                self.totals.interrupted = true;
+                return Ok(());
+            }
+            if settled {
+                return Ok(());
+            }
+        }
+        match stage.method {
+            Method::Explicit => Ok(()),
+            Method::QuasiStatic { kinetic_ratio, residual } => Err(Error::NotSettled {
+                stage: stage.name.clone(),
+                detail: format!(
+                    "kinetic/strain energy {:.2e} (asked: {kinetic_ratio:.1e}), relative residual force {:.2e} \
+                     (asked: {residual:.1e}) after {} s; a longer duration or another mass_damping may help",
+                    self.last_ratios[0], self.last_ratios[1], stage.duration
+                ),
+            }),
+        }
+    }
+
+    /// The rigid velocity of the rim's motion for every node, and for the rim's free components.
+    fn start_with_rim(&mut self, time: f64) -> Result<()> {
+        let rate = self.motion.rate_at(time);
+        let omega = rim::angular_velocity(&self.rim, &rate);
+        let (axle, velocity) = (rim::axle(&self.rim), rim::axle(&rate));
+        self.rim_rate = rate;
+        self.set_velocities(|x| velocity + omega.cross(x - axle))
+    }
+
+    /// Steps to `end` and books the window.
+    fn window(&mut self, index: usize, stage: &Stage, end: f64) -> Result<Window> {
+        let start = self.totals.time;
+        if self.totals.steps >= self.refresh_at {
+            self.refresh()?;
+        }
+        let length = end - start;
+        let count = (length / (self.scene.safety * self.critical.dt)).ceil().max(1.0) as usize;
+        let dt = length / count as f64;
+        let steps = self.motion.plan(start, dt, self.dt_before, count);
+        self.engine.advance(&steps)?;
+        self.dt_before = dt;
+        self.totals.time = end;
+        self.totals.steps += count as u64;
+        self.totals.dt_min = self.totals.dt_min.min(dt);
+        self.totals.dt_max = self.totals.dt_max.max(dt);
+        let next = self.motion.plan(end, dt, dt, 1)[0];
+        let window = self.engine.sample(&next)?;
+        (self.rim, self.rim_rate) = (window.rim, window.rim_rate);
+        let at = WindowEnd { time: end, length, dt, stage: index };
+        let row = self.totals.ledger.row(self.model, self.scene.road.as_ref(), &at, &window);
+        let progress = Progress { stage: &stage.name, time: end, end: self.end, steps: self.totals.steps };
+        self.observer.sample(&row, &progress)?;
+        Ok(window)
+    }
+
+    /// Finds the critical step again, and decides how long to trust it: twice as long while it stays within 0.2 %,
+    /// half as long where it moves by more than 1 % (the safety factor covers 10 %).
+    fn refresh(&mut self) -> Result<()> {
+        const SHORTEST: u64 = 200;
+        const LONGEST: u64 = 6_400;
+        let first = self.critical.dt == 0.0;
+        let guess = if first { self.totals.element_bound } else { self.critical.dt };
+        let x = self.engine.state()?.x;
+        let new =
+            stability::assembled(self.engine, self.model, &x, guess, (!first).then_some(&self.critical))?;
+        let change = if first { 1.0 } else { (new.dt / self.critical.dt - 1.0).abs() };
+        self.refresh_interval = match self.refresh_interval {
+            0 => SHORTEST,
+            i if change < 2e-3 => (2 * i).min(LONGEST),
+            i if change > 1e-2 => (i / 2).max(SHORTEST),
+            i => i,
+        };
+        if first {
+            self.totals.critical_first = new.dt;
+        }
+        self.totals.critical_min = self.totals.critical_min.min(new.dt);
+        self.totals.lanczos_iterations += new.iterations;
+        self.critical = new;
+        self.refresh_at = self.totals.steps + self.refresh_interval;
+        Ok(())
+    }
+
+    fn has_settled(&mut self, stage: &Stage, window: &Window) -> bool {
+        let Method::QuasiStatic { kinetic_ratio, residual } = stage.method else { return false };
+        let ratio = |a: f64, b: f64| if b > 0.0 { a / b } else { f64::INFINITY };
+        self.last_ratios = [
+            ratio(window.kinetic, window.strain),
+            ratio(window.probe.net_force, window.probe.internal_force),
+        ];
+        let over = self.totals.time >= self.motion.settled_after();
+        over && self.last_ratios[0] <= kinetic_ratio && self.last_ratios[1] <= residual
+    }
+
+    fn snapshots(&mut self, stage: &Stage, window: &Window, last: bool) -> Result<()> {
+        // Half a window of slack: snapshot times are whole windows.
+        let time = self.totals.time;
+        let due = time >= self.next_snapshot - 0.5 * self.scene.output.sample;
+        if self.scene.output.snapshots == Snapshots::None || !(due || last) {
+            return Ok(());
+        }
+        if let (true, Snapshots::Every(interval)) = (due, self.scene.output.snapshots) {
+            self.next_snapshot += interval;
+        }
+        let state = self.engine.state()?;
+        let length = window.steps as f64 * self.dt_before;
+        let road = self.scene.road.as_ref();
+        let snapshot = fields::snapshot(self.model, road, time, self.totals.steps, length, state, window);
+        self.observer.snapshot(&snapshot, &stage.name)
+    }
+}

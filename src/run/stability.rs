@@ -1,0 +1,159 @@
+//! The critical time step of the current state, from the assembled tangent (eq. 29).
+//!
+//! The scheme with half-step velocities is stable while the largest eigenvalue of
+//! B(dt) = M^-1 (dt^2/4 K + dt/2 C) is below one: K alone gives 2/omega_max. B is applied by the engine's own force pass,
+//! as a difference of forces between the state displaced by e w, moving with e (2/dt) w, and the state at rest.
+
+use super::lanczos::{self, Top};
+use crate::cpu::element_forces;
+use crate::engine::Engine;
+use crate::error::Result;
+use crate::model::Model;
+
+/// Residual of the eigenvalue, relative: the step is known to half of it.
+const TOLERANCE: f64 = 1e-3;
+/// Iterations after which the bound (value plus residual) is taken as it is.
+const MOST: usize = 120;
+
+/// A critical step and what is needed to find the next one cheaply.
+#[derive(Debug, Clone, Default)]
+pub struct Critical {
+    /// Largest stable step [s], from the upper bound of the eigenvalue.
+    pub dt: f64,
+    /// Ritz vector (nodes times 3), the next start.
+    vector: Vec<f64>,
+    pub iterations: usize,
+}
+
+/// Critical step from single elements: no assembly can be less stable than its worst element (Irons & Treharne), so
+/// this is safe in the reference shape, and some way below the assembled value.
+pub fn element_bound(model: &Model) -> Result<f64> {
+    let mut worst = f64::INFINITY;
+    for class in 0..model.classes.len() {
+        let Some(element) = model.class_of.iter().position(|&c| c as usize == class) else { continue };
+        worst = worst.min(class_bound(model, class, element)?);
+    }
+    Ok(worst)
+}
+
+fn class_bound(model: &Model, class: usize, element: usize) -> Result<f64> {
+    let corners = model.mesh.hexes[element].map(|n| model.mesh.nodes[n as usize]);
+    let volumes = model.classes[class].corner_volumes(model.lumping);
+    let mass: Vec<f64> = (0..24).map(|i| model.density * volumes[i / 3]).collect();
+    let size = model.classes[class].volume.cbrt();
+    let start = spread(24, |_| true);
+    let mut dt = size / (model.law.wave_modulus() / model.density).sqrt();
+    // With viscosity the pencil depends on dt: two corrections settle it far below any safety factor.
+    for _ in 0..if model.viscosity.is_some() { 4 } else { 1 } {
+        let apply = |w: &[f64], with_velocity: f64| {
+            let e = 1e-6 * size / w.iter().fold(0.0f64, |m, w| m.max(w.abs()));
+            let moved = |s: f64| {
+                std::array::from_fn(|a| std::array::from_fn(|d| corners[a][d] + s * e * w[3 * a + d]))
+            };
+            let moving = |s: f64| {
+                std::array::from_fn(|a| std::array::from_fn(|d| s * e * with_velocity * w[3 * a + d]))
+            };
+            let f = element_forces(model, class, &moved(1.0), &moving(1.0));
+            let g = element_forces(model, class, &moved(-1.0), &moving(-1.0));
+            Ok((0..24)
+                .map(|i| (f[i / 3][i % 3] - g[i / 3][i % 3]) / (2.0 * e * mass[i]))
+                .collect::<Vec<f64>>())
+        };
+        let scaled = |w: &[f64]| Ok(apply(w, 2.0 / dt)?.iter().map(|b| b * dt * dt / 4.0).collect());
+        let top = lanczos::largest(scaled, &mass, &start, 1e-6, 24)?;
+        let stiffness = rayleigh(&apply(&top.vector, 0.0)?, &top.vector, &mass);
+        dt = corrected(dt, &top, stiffness);
+    }
+    Ok(dt)
+}
+
+fn rayleigh(applied: &[f64], w: &[f64], mass: &[f64]) -> f64 {
+    applied.iter().zip(w).zip(mass).map(|((a, w), m)| a * w * m).sum()
+}
+
+/// The dt that makes k dt^2/4 + c dt/2 = 1 for the mode found at `dt`, whose stiffness quotient is k.
+fn corrected(dt: f64, top: &Top, stiffness: f64) -> f64 {
+    let margin = top.upper / top.value;
+    let k = stiffness * margin;
+    let c = ((top.value - stiffness * dt * dt / 4.0) / (dt / 2.0)).max(0.0) * margin;
+    // Written so that nothing cancels: dt = 4 / (c + sqrt(c^2 + 4 k)).
+    4.0 / (c + (c * c + 4.0 * k).sqrt())
+}
+
+/// Critical step of the engine's current positions. `guess`: a step of the right size, `before`: the last result.
+pub fn assembled(
+    engine: &mut dyn Engine,
+    model: &Model,
+    x: &[[f64; 3]],
+    guess: f64,
+    before: Option<&Critical>,
+) -> Result<Critical> {
+    let mut held = vec![false; x.len()];
+    model.mesh.rim.iter().for_each(|&n| held[n as usize] = true);
+    let mass: Vec<f64> = model.mass.iter().flat_map(|&m| [m; 3]).collect();
+    let start = match before {
+        // A little of everything, so that a mode orthogonal to the last one can grow.
+        Some(c) if c.vector.len() == mass.len() => {
+            let noise = spread(mass.len(), |i| !held[i / 3]);
+            let scale = 0.05 / mass.iter().zip(&noise).map(|(m, n)| m * n * n).sum::<f64>().sqrt();
+            c.vector.iter().zip(&noise).map(|(v, n)| v + scale * n).collect()
+        }
+        _ => spread(mass.len(), |i| !held[i / 3]),
+    };
+    let single = engine.info().precision != "f64";
+    let size = model.classes.iter().map(|c| c.volume.cbrt()).fold(f64::INFINITY, f64::min);
+    // Difference step: its truncation error (second order in the strain) against the rounding of the forces.
+    let reach = size * if single { 2e-3 } else { 1e-6 };
+    let mut difference = |w: &[f64], velocity: f64| -> Result<Vec<f64>> {
+        let e = reach / w.iter().fold(0.0f64, |m, w| m.max(w.abs()));
+        let mut side = |s: f64| {
+            let at = |n: usize, d: usize| s * e * w[3 * n + d];
+            let moved: Vec<[f64; 3]> =
+                (0..x.len()).map(|n| std::array::from_fn(|d| x[n][d] + at(n, d))).collect();
+            let moving: Vec<[f64; 3]> =
+                (0..x.len()).map(|n| std::array::from_fn(|d| velocity * at(n, d))).collect();
+            engine.force(&moved, &moving)
+        };
+        let (f, g) = (side(1.0)?, side(-1.0)?);
+        let free = |i: usize| if held[i / 3] { 0.0 } else { 1.0 };
+        Ok((0..mass.len())
+            .map(|i| free(i) * (f[i / 3][i % 3] - g[i / 3][i % 3]) / (2.0 * e * mass[i]))
+            .collect())
+    };
+    let mut dt = guess;
+    let mut iterations = 0;
+    loop {
+        let top = lanczos::largest(
+            |w| Ok(difference(w, 2.0 / dt)?.iter().map(|b| b * dt * dt / 4.0).collect()),
+            &mass,
+            &start,
+            TOLERANCE,
+            MOST,
+        )?;
+        iterations += top.iterations;
+        let stiffness = if model.viscosity.is_some() {
+            rayleigh(&difference(&top.vector, 0.0)?, &top.vector, &mass)
+        } else {
+            top.value * 4.0 / (dt * dt)
+        };
+        let new = corrected(dt, &top, stiffness);
+        // Without viscosity the first answer is exact; with it the pencil was that of `dt`.
+        let settled = model.viscosity.is_none() || (new / dt - 1.0).abs() < 0.02;
+        dt = new;
+        if settled {
+            return Ok(Critical { dt, vector: top.vector, iterations });
+        }
+    }
+}
+
+/// A fixed vector with a share of every mode, zero where `free` is false.
+fn spread(count: usize, free: impl Fn(usize) -> bool) -> Vec<f64> {
+    let mut state = 0x9e37_79b9_7f4a_7c15u64;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+    };
+    (0..count).map(|i| if free(i) { next() } else { 0.0 }).collect()
+}
