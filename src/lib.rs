@@ -6,6 +6,7 @@
 pub mod error;
 pub mod model;
 pub mod record;
+pub mod render;
 pub mod scene;
 
 pub use error::{Error, Result};

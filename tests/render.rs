@@ -1,0 +1,535 @@
+//! Pictures: what stands where, in which colour, and the same again.
+//!
+//! Needs an adapter (a software one will do); without one every trial is reported as ignored.
+//! `HEXROLL_TEST_PICTURES=DIR` writes the gallery's pictures to DIR, to be looked at.
+
+#![allow(non_snake_case)] // X: reference positions
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+
+use hexroll::Error;
+use hexroll::model::mesh::Mesh;
+use hexroll::record::{ContactNode, ContactState, Snapshot};
+use hexroll::render::{
+    BodyView, Camera, ColourMap, FootprintColour, FootprintStyle, FootprintView, Projection, Range, Renderer,
+    View,
+};
+use hexroll::scene::{Field, MeshSpec, NodeSet, Road};
+use image::RgbaImage;
+use libtest_mimic::{Arguments, Failed, Trial};
+
+type Check = fn(&mut Renderer);
+
+const CHECKS: [(&str, Check); 11] = [
+    ("a_picture_has_the_size_asked_for", size),
+    ("the_silhouette_is_where_the_camera_says", silhouette),
+    ("a_view_shows_the_axes_it_names", views),
+    ("an_element_has_the_colour_of_its_value", element_colour),
+    ("a_node_field_is_interpolated_over_a_facet", node_colour),
+    ("fields_and_views_give_different_pictures", differences),
+    ("a_picture_drawn_again_is_the_same_to_the_byte", determinism),
+    ("a_footprint_colours_the_nodes_by_normal_force", footprint_colours),
+    ("nothing_in_contact_is_drawn_too", no_contact),
+    ("any_scale_gives_the_same_picture", any_scale),
+    ("data_that_do_not_fit_are_errors", errors),
+];
+
+fn main() {
+    let arguments = Arguments::from_args();
+    let renderer = match Renderer::new() {
+        Ok(renderer) => Some(renderer),
+        Err(Error::NoAdapter { .. }) => None,
+        Err(error) => panic!("{error}"),
+    };
+    let missing = renderer.is_none();
+    let renderer = Arc::new(Mutex::new(renderer));
+    let trial = |name: &str, check: Check| {
+        let renderer = Arc::clone(&renderer);
+        let run = move || -> Result<(), Failed> {
+            // A trial that panicked leaves nothing half done in the renderer.
+            let mut renderer = renderer.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+            check(renderer.as_mut().ok_or("no adapter")?);
+            Ok(())
+        };
+        Trial::test(name, run).with_ignored_flag(missing)
+    };
+    let mut trials: Vec<Trial> = CHECKS.iter().map(|(name, check)| trial(name, *check)).collect();
+    if std::env::var_os("HEXROLL_TEST_PICTURES").is_some() {
+        trials.push(trial("gallery", gallery));
+    }
+    libtest_mimic::run(&arguments, trials).exit();
+}
+
+// ---------------------------------------------------------------------------------------------- inputs
+
+const OUTER: f64 = 39e-3;
+const INNER: f64 = 17e-3;
+const WIDTH: f64 = 17.5e-3;
+
+fn wheel(scale: f64) -> Mesh {
+    let spec = MeshSpec::Ring {
+        outer_radius: OUTER * scale,
+        inner_radius: INNER * scale,
+        width: WIDTH * scale,
+        elements: [44, 4, 5],
+    };
+    Mesh::generate(&spec, [0.0; 3], Some(NodeSet::Inner))
+}
+
+/// The wheel as built: nothing deformed, nothing touching.
+fn at_rest(mesh: &Mesh) -> Snapshot {
+    let elements = mesh.hexes.len();
+    Snapshot {
+        time: 0.0,
+        x: mesh.nodes.clone(),
+        v: vec![[0.0; 3]; mesh.nodes.len()],
+        pressure: vec![0.0; elements],
+        von_mises: vec![0.0; elements],
+        volume_ratio: vec![1.0; elements],
+        axle: Some((mesh.axle, [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.]])),
+        ..Snapshot::default()
+    }
+}
+
+/// A made-up rolling wheel: lowered by 2.2 mm, flat at the road, turned a little; a parabolic pressure over
+/// the patch, shear that drives, and slip where it is largest.
+fn rolling(mesh: &Mesh, scale: f64) -> Snapshot {
+    let mut snapshot = at_rest(mesh);
+    let sink = 2.2e-3 * scale;
+    let (sin, cos) = 0.1_f64.sin_cos();
+    let axle = [5e-3 * scale, 0.0, mesh.axle[2] - sink];
+    for (x, X) in snapshot.x.iter_mut().zip(&mesh.nodes) {
+        let (dx, dz) = (X[0] - mesh.axle[0], X[2] - mesh.axle[2]);
+        *x = [axle[0] + cos * dx + sin * dz, X[1], axle[2] - sin * dx + cos * dz];
+        if x[2] < 0.012 * scale {
+            // Squeezed towards the road, bulging sideways.
+            let depth = (0.012 * scale - x[2]) / (0.0142 * scale);
+            x[1] *= 1.0 + 0.12 * depth * depth;
+            x[2] = x[2].max(0.0);
+        }
+    }
+    snapshot.time = 30e-3;
+    snapshot.axle = Some((axle, [[cos, 0., sin], [0., 1., 0.], [-sin, 0., cos]]));
+    for (v, x) in snapshot.v.iter_mut().zip(&snapshot.x) {
+        *v = [2.58 + 70.0 * (x[2] - axle[2]), 0.0, -70.0 * (x[0] - axle[0])];
+    }
+    for (element, hex) in mesh.hexes.iter().enumerate() {
+        let middle = |d: usize| hex.iter().map(|&n| snapshot.x[n as usize][d]).sum::<f64>() / 8.0;
+        let (dx, dz) = (middle(0) - axle[0], middle(2));
+        let load = (-(dx * dx + dz * dz) / (0.012 * scale).powi(2)).exp();
+        snapshot.pressure[element] = 0.9e6 * load - 0.05e6;
+        snapshot.von_mises[element] = 1.3e6 * load + 0.1e6 * (1.0 - dz / (0.08 * scale)).abs();
+        snapshot.volume_ratio[element] = 1.0 - 0.011 * load;
+    }
+    snapshot.contact = patch(mesh, &snapshot, axle[0], scale);
+    snapshot
+}
+
+fn patch(mesh: &Mesh, snapshot: &Snapshot, middle: f64, scale: f64) -> Vec<ContactNode> {
+    let half = 13e-3 * scale;
+    let node = |&node: &u32| {
+        let x = snapshot.x[node as usize];
+        let s = (x[0] - middle) / half;
+        if x[2] > 1e-9 || s.abs() >= 1.0 {
+            let (force, area, pressure, slip_speed) = ([0.0; 3], 0.0, 0.0, 0.0);
+            return ContactNode { node, force, area, pressure, slip_speed, state: ContactState::Free };
+        }
+        let area = 1.9e-5 * scale * scale;
+        let pressure = 0.75e6 * (1.0 - s * s) * (1.0 - 0.3 * (x[1] / (9e-3 * scale)).powi(2));
+        let normal = pressure * area;
+        let slips = s < -0.35;
+        let shear = if slips { normal } else { 0.6 * normal * (0.75 - s) };
+        let force = [0.97 * shear, 0.24 * shear * x[1] / (9e-3 * scale), normal];
+        let state = if slips { ContactState::Slip } else { ContactState::Stick };
+        ContactNode { node, force, area, pressure, slip_speed: if slips { 0.3 } else { 0.0 }, state }
+    };
+    mesh.surface.iter().map(node).collect()
+}
+
+/// Small pictures: the tests look at places, not at print quality.
+fn small() -> BodyView {
+    BodyView { size: [800, 450], ..BodyView::default() }
+}
+
+fn at(picture: &RgbaImage, [x, y]: [f64; 2]) -> [u8; 3] {
+    let [r, g, b, _] = picture.get_pixel(x as u32, y as u32).0;
+    [r, g, b]
+}
+
+fn apart(a: [u8; 3], b: [u8; 3]) -> i32 {
+    (0..3).map(|c| (i32::from(a[c]) - i32::from(b[c])).abs()).max().unwrap_or(0)
+}
+
+const WHITE: [u8; 3] = [255; 3];
+
+// ---------------------------------------------------------------------------------------------- checks
+
+fn size(renderer: &mut Renderer) {
+    let mesh = wheel(1.0);
+    let snapshot = rolling(&mesh, 1.0);
+    // 801: rows that the device has to pad.
+    for size in [[1600, 900], [801, 451], [450, 800]] {
+        let body = renderer.body(&mesh, &snapshot, &BodyView { size, ..BodyView::default() }).unwrap();
+        let view = FootprintView { size, ..FootprintView::default() };
+        let footprint = renderer.footprint(&mesh, &snapshot, &view).unwrap();
+        for picture in [body, footprint] {
+            assert_eq!([picture.width(), picture.height()], size);
+            assert!(picture.pixels().all(|p| p.0[3] == 255), "a picture is opaque");
+        }
+    }
+}
+
+/// Side view, no road: a circle of the outer radius about the projected axle, a hole of the inner radius.
+fn silhouette(renderer: &mut Renderer) {
+    let mesh = wheel(1.0);
+    let snapshot = Snapshot { axle: None, ..at_rest(&mesh) };
+    let options = BodyView { view: View::Side, road: None, edges: false, ..small() };
+    let picture = renderer.body(&mesh, &snapshot, &options).unwrap();
+    let camera = renderer.body_camera(&mesh, &snapshot, &options).unwrap();
+    let centre = camera.project(mesh.axle);
+    let per_metre = camera.pixels_per_metre();
+    // The polygon of 44 sides lies within 0.26 % of the circle; 3 % leaves room for a pixel.
+    for (radius, is_body) in
+        [(0.97 * INNER, false), (1.03 * INNER, true), (0.96 * OUTER, true), (1.03 * OUTER, false)]
+    {
+        for step in 0..16 {
+            let (sin, cos) = (step as f64 * std::f64::consts::TAU / 16.0).sin_cos();
+            let pixel = [centre[0] + radius * per_metre * cos, centre[1] + radius * per_metre * sin];
+            let seen = at(&picture, pixel);
+            assert_eq!(apart(seen, WHITE) > 20, is_body, "{seen:?} at {radius} m, direction {step}");
+        }
+    }
+}
+
+/// Each view has the axes its documentation names, and one unit of length everywhere.
+fn views(renderer: &mut Renderer) {
+    let mesh = wheel(1.0);
+    let snapshot = at_rest(&mesh);
+    let camera = |view| -> Camera {
+        renderer.body_camera(&mesh, &snapshot, &BodyView { view, road: None, ..small() }).unwrap()
+    };
+    let (x, y, z) = ([1., 0., 0.], [0., 1., 0.], [0., 0., 1.]);
+    let minus_y = [0., -1., 0.];
+    let cases = [
+        (View::Front, y, z),
+        (View::Behind, minus_y, z),
+        (View::Side, x, z),
+        (View::Below, x, minus_y),
+        (View::Angles { azimuth: -90.0, elevation: 90.0 }, x, y),
+    ];
+    for (view, right, up) in cases {
+        let camera = camera(view);
+        let origin = camera.project(mesh.axle);
+        let length = 0.01;
+        for (axis, pixels) in [(right, [1.0, 0.0]), (up, [0.0, -1.0])] {
+            let point = std::array::from_fn(|d| mesh.axle[d] + length * axis[d]);
+            let seen = camera.project(point);
+            for d in 0..2 {
+                let expected = pixels[d] * length * camera.pixels_per_metre();
+                // Pixels of a projection in f64.
+                assert!((seen[d] - origin[d] - expected).abs() < 1e-6, "{view:?} {axis:?}: {seen:?}");
+            }
+        }
+    }
+}
+
+/// One element is hotter than the others: its facet shows the map's colour for its value, unshaded.
+fn element_colour(renderer: &mut Renderer) {
+    let mesh = wheel(1.0);
+    for (field, map) in [
+        (Field::Pressure, ColourMap::Viridis),
+        (Field::VonMises, ColourMap::Cividis),
+        (Field::VolumeRatio, ColourMap::Viridis),
+    ] {
+        for value in [0.25, 0.5, 1.0] {
+            let mut snapshot = at_rest(&mesh);
+            let (facet, element) = side_facet(&mesh);
+            snapshot.pressure.fill(0.0);
+            snapshot.volume_ratio.fill(0.0);
+            for values in [&mut snapshot.pressure, &mut snapshot.von_mises, &mut snapshot.volume_ratio] {
+                values[element] = value;
+            }
+            let options = BodyView {
+                field,
+                map,
+                view: View::Side,
+                range: Range::Fixed(0.0, 1.0),
+                shading: 0.0,
+                edges: false,
+                ..small()
+            };
+            let picture = renderer.body(&mesh, &snapshot, &options).unwrap();
+            let camera = renderer.body_camera(&mesh, &snapshot, &options).unwrap();
+            let seen = at(&picture, camera.project(middle(&snapshot, facet)));
+            // 8-bit texels, interpolated and encoded once more: two steps.
+            assert!(apart(seen, map.at(value)) <= 2, "{field:?} {value}: {seen:?}, {:?}", map.at(value));
+            let (other, _) = side_facet_beside(&mesh, element);
+            let cold = at(&picture, camera.project(middle(&snapshot, other)));
+            assert!(apart(cold, map.at(0.0)) <= 2, "{field:?}: a neighbour is cold, {cold:?}");
+        }
+    }
+}
+
+/// |u| grows linearly: in the middle of a facet it is the mean of its corners'.
+fn node_colour(renderer: &mut Renderer) {
+    let mesh = wheel(1.0);
+    let mut snapshot = at_rest(&mesh);
+    for v in snapshot.v.iter_mut().zip(&mesh.nodes) {
+        *v.0 = [0.0, v.1[2], 0.0];
+    }
+    let top = 2.0 * OUTER;
+    let options = BodyView {
+        field: Field::Velocity,
+        view: View::Side,
+        range: Range::Fixed(0.0, top),
+        shading: 0.0,
+        edges: false,
+        ..small()
+    };
+    let picture = renderer.body(&mesh, &snapshot, &options).unwrap();
+    let camera = renderer.body_camera(&mesh, &snapshot, &options).unwrap();
+    for radius in [0.6, 0.75, 0.9] {
+        for degrees in [17.0_f64, 80.0, 200.0, 300.0] {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let z = OUTER + radius * OUTER * sin;
+            let pixel = camera.project([radius * OUTER * cos, -0.5 * WIDTH, z]);
+            let (seen, expected) = (at(&picture, pixel), ColourMap::Viridis.at(z / top));
+            // A pixel is 0.2 mm high, a third of a per cent of the map, or about 2 of 255 steps.
+            assert!(apart(seen, expected) <= 5, "radius {radius}, {degrees} deg: {seen:?} {expected:?}");
+        }
+    }
+}
+
+/// A facet on the side at y = -width/2 and its element, half way up the tread.
+fn side_facet(mesh: &Mesh) -> ([u32; 4], usize) {
+    let facets = side_facets(mesh);
+    facets[facets.len() / 2]
+}
+
+fn side_facet_beside(mesh: &Mesh, element: usize) -> ([u32; 4], usize) {
+    let facets = side_facets(mesh);
+    let own = facets.iter().position(|f| f.1 == element).unwrap();
+    facets[own + 1]
+}
+
+/// All facets at y = -width/2 with the element that owns each of them: the one that has its four nodes.
+fn side_facets(mesh: &Mesh) -> Vec<([u32; 4], usize)> {
+    let side = |f: &&[u32; 4]| f.iter().all(|&n| (mesh.nodes[n as usize][1] + 0.5 * WIDTH).abs() < 1e-9);
+    let owner = |f: &[u32; 4]| mesh.hexes.iter().position(|hex| f.iter().all(|n| hex.contains(n))).unwrap();
+    mesh.facets.iter().filter(side).map(|f| (*f, owner(f))).collect()
+}
+
+fn middle(snapshot: &Snapshot, facet: [u32; 4]) -> [f64; 3] {
+    std::array::from_fn(|d| facet.iter().map(|&n| snapshot.x[n as usize][d]).sum::<f64>() / 4.0)
+}
+
+fn differences(renderer: &mut Renderer) {
+    let mesh = wheel(1.0);
+    let snapshot = rolling(&mesh, 1.0);
+    let fields = [
+        Field::Displacement,
+        Field::Velocity,
+        Field::ContactForce,
+        Field::Pressure,
+        Field::VolumeRatio,
+        Field::VonMises,
+    ];
+    let mut options: Vec<BodyView> = fields.iter().map(|&field| BodyView { field, ..small() }).collect();
+    options.extend(
+        [View::Front, View::Side, View::Behind, View::Below].map(|view| BodyView { view, ..small() }),
+    );
+    options.push(BodyView { projection: Projection::Perspective { angle: 30.0 }, ..small() });
+    options.push(BodyView { map: ColourMap::Cividis, ..small() });
+    options.push(BodyView { road: None, ..small() });
+    options.push(BodyView { title: Some("A title".into()), ..small() });
+    let pictures: Vec<RgbaImage> =
+        options.iter().map(|o| renderer.body(&mesh, &snapshot, o).unwrap()).collect();
+    for a in 0..pictures.len() {
+        for b in 0..a {
+            let changed = pictures[a].pixels().zip(pictures[b].pixels()).filter(|(p, q)| p != q).count();
+            assert!(changed > 500, "{:?} and {:?} differ in {changed} pixels", options[a], options[b]);
+        }
+    }
+}
+
+fn determinism(renderer: &mut Renderer) {
+    let mesh = wheel(1.0);
+    let snapshot = rolling(&mesh, 1.0);
+    let mut other = Renderer::new().unwrap();
+    for style in [FootprintStyle::Flat, FootprintStyle::Arrows { view: View::Iso }] {
+        let view = FootprintView { size: [800, 450], style, ..FootprintView::default() };
+        let first = renderer.footprint(&mesh, &snapshot, &view).unwrap();
+        assert_eq!(first, renderer.footprint(&mesh, &snapshot, &view).unwrap());
+        assert_eq!(first, other.footprint(&mesh, &snapshot, &view).unwrap());
+    }
+    let first = renderer.body(&mesh, &snapshot, &small()).unwrap();
+    assert_eq!(first, renderer.body(&mesh, &snapshot, &small()).unwrap());
+    assert_eq!(first, other.body(&mesh, &snapshot, &small()).unwrap());
+}
+
+/// Every touching node's colour is in the picture, and the range decides which it is.
+fn footprint_colours(renderer: &mut Renderer) {
+    let mesh = wheel(1.0);
+    let mut snapshot = rolling(&mesh, 1.0);
+    for contact in &mut snapshot.contact {
+        // No shear: no arrows over the discs.
+        contact.force = [0.0, 0.0, contact.force[2]];
+    }
+    let count = |picture: &RgbaImage, colour: [u8; 3]| {
+        // Left of the legend.
+        let plot = picture.enumerate_pixels().filter(|(x, _, _)| *x < 1100);
+        plot.filter(|(_, _, p)| apart([p.0[0], p.0[1], p.0[2]], colour) <= 1).count()
+    };
+    for colour in [FootprintColour::Force, FootprintColour::Pressure] {
+        let value = |c: &ContactNode| match colour {
+            FootprintColour::Force => c.force[2],
+            FootprintColour::Pressure => c.pressure,
+        };
+        let highest = snapshot.contact.iter().map(value).fold(0.0, f64::max);
+        for top in [highest, 2.0 * highest] {
+            let range = Range::Fixed(0.0, top);
+            let view = FootprintView { colour, range, ..FootprintView::default() };
+            let picture = renderer.footprint(&mesh, &snapshot, &view).unwrap();
+            for contact in snapshot.contact.iter().filter(|c| c.state != ContactState::Free) {
+                let expected = view.map.at(value(contact) / top);
+                assert!(count(&picture, expected) > 50, "{colour:?} {top}: no {expected:?}");
+            }
+        }
+    }
+}
+
+fn no_contact(renderer: &mut Renderer) {
+    let mesh = wheel(1.0);
+    let free = at_rest(&mesh);
+    let touching = rolling(&mesh, 1.0);
+    for style in [FootprintStyle::Flat, FootprintStyle::Arrows { view: View::Iso }] {
+        let view = FootprintView { size: [800, 450], style, ..FootprintView::default() };
+        let empty = renderer.footprint(&mesh, &free, &view).unwrap();
+        assert!(empty.pixels().any(|p| p.0[0] < 200), "the body and a note are there");
+        assert_ne!(empty, renderer.footprint(&mesh, &touching, &view).unwrap());
+    }
+    renderer.body(&mesh, &free, &BodyView { field: Field::ContactForce, ..small() }).unwrap();
+}
+
+/// A wheel ten times as large, and one far from the origin, are drawn the same but for their numbers.
+fn any_scale(renderer: &mut Renderer) {
+    let mesh = wheel(1.0);
+    let options = BodyView { range: Range::Fixed(0.0, 1e6), ..small() };
+    let here = renderer.body(&mesh, &rolling(&mesh, 1.0), &options).unwrap();
+    let large = wheel(10.0);
+    let there = renderer.body(&large, &rolling(&large, 10.0), &options).unwrap();
+    let same_middle = |a: &RgbaImage, b: &RgbaImage| {
+        let inside = |x: u32, y: u32| (60..600).contains(&x) && (60..390).contains(&y);
+        let pairs = a.enumerate_pixels().filter(|(x, y, _)| inside(*x, *y));
+        pairs.filter(|(x, y, p)| apart([p.0[0], p.0[1], p.0[2]], at(b, [*x as f64, *y as f64])) > 24).count()
+    };
+    // Rounding moves an edge by a fraction of a pixel here and there: 1 % of 180,000 pixels.
+    assert!(same_middle(&here, &there) < 1800, "{}", same_middle(&here, &there));
+
+    let block = Mesh::generate(
+        &MeshSpec::Block { size: [1.0, 0.4, 0.5], elements: [8, 3, 4] },
+        [1000.0, 0.0, 0.0],
+        None,
+    );
+    let mut snapshot = at_rest(&block);
+    snapshot.axle = None;
+    let options = BodyView { view: View::Side, ..small() };
+    let picture = renderer.body(&block, &snapshot, &options).unwrap();
+    let camera = renderer.body_camera(&block, &snapshot, &options).unwrap();
+    for (point, is_body) in
+        [([1000.03, 0.0, 0.25], true), ([1000.97, 0.0, 0.25], true), ([999.97, 0.0, 0.25], false)]
+    {
+        assert_eq!(apart(at(&picture, camera.project(point)), WHITE) > 30, is_body, "{point:?}");
+    }
+}
+
+fn errors(renderer: &mut Renderer) {
+    let mesh = wheel(1.0);
+    let good = at_rest(&mesh);
+    let mut short = good.clone();
+    short.x.pop();
+    let mut missing = good.clone();
+    missing.von_mises.clear();
+    let mut wild = good.clone();
+    wild.x[3][1] = f64::NAN;
+    for snapshot in [short, missing, wild] {
+        let result = renderer.body(&mesh, &snapshot, &small());
+        assert!(matches!(result, Err(Error::Picture { .. })));
+    }
+    for size in [[0, 450], [800, 1_000_000]] {
+        let result = renderer.body(&mesh, &good, &BodyView { size, ..BodyView::default() });
+        assert!(matches!(result, Err(Error::Picture { .. })));
+    }
+}
+
+// --------------------------------------------------------------------------------------------- gallery
+
+/// Full-size pictures of every kind, for the eye.
+fn gallery(renderer: &mut Renderer) {
+    let folder = PathBuf::from(std::env::var_os("HEXROLL_TEST_PICTURES").unwrap());
+    std::fs::create_dir_all(&folder).unwrap();
+    let save = |name: &str, picture: RgbaImage| picture.save(folder.join(format!("{name}.png"))).unwrap();
+    let mesh = wheel(1.0);
+    let snapshot = rolling(&mesh, 1.0);
+    let title = Some("LAT-100 wheel, straight rolling".to_string());
+    let body = BodyView { title: title.clone(), ..BodyView::default() };
+    let perspective = Projection::Perspective { angle: 30.0 };
+    let bodies = [
+        ("iso_von_mises", BodyView { ..body.clone() }),
+        ("perspective_speed", BodyView { projection: perspective, field: Field::Velocity, ..body.clone() }),
+        ("side_pressure", BodyView { view: View::Side, field: Field::Pressure, ..body.clone() }),
+        ("front_volume_ratio", BodyView { view: View::Front, field: Field::VolumeRatio, ..body.clone() }),
+        ("behind_displacement", BodyView { view: View::Behind, field: Field::Displacement, ..body.clone() }),
+        ("below_contact", BodyView { view: View::Below, field: Field::ContactForce, ..body.clone() }),
+        ("fixed_range", BodyView { range: Range::Fixed(0.0, 0.5e6), map: ColourMap::Cividis, ..body }),
+    ];
+    for (name, options) in bodies {
+        save(name, renderer.body(&mesh, &snapshot, &options).unwrap());
+    }
+    let flat = FootprintView { title, ..FootprintView::default() };
+    let arrows = FootprintStyle::Arrows { view: View::Iso };
+    let feet = [
+        ("footprint", flat.clone()),
+        ("footprint_pressure", FootprintView { colour: FootprintColour::Pressure, ..flat.clone() }),
+        ("footprint_arrows", FootprintView { style: arrows, ..flat.clone() }),
+    ];
+    for (name, options) in feet {
+        save(name, renderer.footprint(&mesh, &snapshot, &options).unwrap());
+    }
+    save("footprint_empty", renderer.footprint(&mesh, &at_rest(&mesh), &flat).unwrap());
+    slope(renderer, &save);
+}
+
+/// A block of ten millimetres on a slope, and one of a metre.
+fn slope(renderer: &mut Renderer, save: &dyn Fn(&str, RgbaImage)) {
+    let (sin, cos) = 20.0_f64.to_radians().sin_cos();
+    let road = Road::Plane { point: [0.0; 3], normal: [-sin, 0.0, cos], velocity: [0.0; 3] };
+    for (name, size, elements) in [("block_10mm", 0.01, [12, 8, 4]), ("block_1m", 1.0, [60, 40, 20])] {
+        let spec = MeshSpec::Block { size: [size, 0.7 * size, 0.35 * size], elements };
+        let mesh = Mesh::generate(&spec, [0.0; 3], None);
+        let mut snapshot = at_rest(&mesh);
+        snapshot.axle = None;
+        for (x, X) in snapshot.x.iter_mut().zip(&mesh.nodes) {
+            *x = [cos * X[0] - sin * X[2], X[1], sin * X[0] + cos * X[2]];
+        }
+        for (value, hex) in snapshot.von_mises.iter_mut().zip(&mesh.hexes) {
+            *value = 3e3 * (1.0 - mesh.nodes[hex[0] as usize][2] / (0.4 * size)).powi(2);
+        }
+        let bottom = mesh.surface.iter().filter(|&&n| mesh.nodes[n as usize][2] == 0.0);
+        snapshot.contact = bottom
+            .map(|&node| {
+                let share = 0.5 + mesh.nodes[node as usize][0] / size;
+                let force = [-0.02 * share * sin, 0.0, 0.02 * share * cos].map(|f| f * size * size);
+                let state = if share < 0.9 { ContactState::Stick } else { ContactState::Slip };
+                ContactNode { node, force, area: 1e-6, pressure: 0.0, slip_speed: 0.0, state }
+            })
+            .collect();
+        save(
+            name,
+            renderer.body(&mesh, &snapshot, &BodyView { road: Some(road), ..BodyView::default() }).unwrap(),
+        );
+        let view = FootprintView { road, ..FootprintView::default() };
+        save(&format!("{name}_footprint"), renderer.footprint(&mesh, &snapshot, &view).unwrap());
+    }
+}
