@@ -488,7 +488,7 @@ fn gallery(renderer: &mut Renderer) {
         save(name, renderer.body(&mesh, &snapshot, &options).unwrap());
     }
     let flat = FootprintView { title, ..FootprintView::default() };
-    let arrows = FootprintStyle::Arrows { view: View::Iso };
+    let arrows = FootprintStyle::Arrows { view: View::Angles { azimuth: -62.0, elevation: 32.0 } };
     let feet = [
         ("footprint", flat.clone()),
         ("footprint_pressure", FootprintView { colour: FootprintColour::Pressure, ..flat.clone() }),
@@ -520,7 +520,7 @@ fn slope(renderer: &mut Renderer, save: &dyn Fn(&str, RgbaImage)) {
         snapshot.contact = bottom
             .map(|&node| {
                 let share = 0.5 + mesh.nodes[node as usize][0] / size;
-                let force = [-0.02 * share * sin, 0.0, 0.02 * share * cos].map(|f| f * size * size);
+                let force = [-0.02 * sin, 1e-3 * share, 0.02 * share * cos].map(|f| f * size * size);
                 let state = if share < 0.9 { ContactState::Stick } else { ContactState::Slip };
                 ContactNode { node, force, area: 1e-6, pressure: 0.0, slip_speed: 0.0, state }
             })

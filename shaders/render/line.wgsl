@@ -5,6 +5,12 @@ struct Line {
     @location(0) colour: vec4f,
 }
 
+/// A point of a line, lifted off the surface it lies on.
+fn lifted(position: vec3f) -> vec4f {
+    let towards_eye = normalize(view.eye.xyz - view.eye.w * position);
+    return view.clip * vec4f(position + view.lift * towards_eye, 1.0);
+}
+
 @vertex
 fn stretch(
     @builtin(vertex_index) corner: u32,
@@ -13,8 +19,8 @@ fn stretch(
     @location(2) colour: vec4f,
     @location(3) width: f32,
 ) -> Line {
-    let a = view.clip * vec4f(from_, 1.0);
-    let b = view.clip * vec4f(to_, 1.0);
+    let a = lifted(from_);
+    let b = lifted(to_);
     let across = b.xy / b.w * view.size - a.xy / a.w * view.size;
     let along = across / max(length(across), 1e-6);
     let side = select(-1.0, 1.0, (corner & 1u) == 1u);
@@ -22,9 +28,8 @@ fn stretch(
     // Half a width beyond both ends closes the corners where segments meet.
     let cap = select(-1.0, 1.0, is_end);
     let shift = (vec2f(-along.y, along.x) * side + along * cap) * width / view.size;
-    var clip = select(a, b, is_end);
-    clip = vec4f(clip.xy + shift * clip.w, clip.z - view.lift * clip.w, clip.w);
-    return Line(clip, colour);
+    let end = select(a, b, is_end);
+    return Line(vec4f(end.xy + shift * end.w, end.zw), colour);
 }
 
 @fragment

@@ -9,7 +9,7 @@ struct View {
     light: vec4f,
     /// Picture size [pixels].
     size: vec2f,
-    /// How far lines are pulled towards the eye so that they lie on their surface [clip depth].
+    /// How far lines are pulled towards the eye so that they lie on their surface.
     lift: f32,
     unused: f32,
 }

@@ -5,8 +5,8 @@ use image::RgbaImage;
 
 use super::camera::{Camera, Projection, Rect, View};
 use super::canvas::Canvas;
-use super::colour::{ColourMap, INK, RIGID, ink, linear};
-use super::gpu::{Frame, Geometry, Segment};
+use super::colour::{ColourMap, INK, RIGID, WEB, WHITE, ink, linear};
+use super::gpu::{Frame, Geometry, Segment, Vertex};
 use super::legend;
 use super::road::{Plane, Plate};
 use super::scale::{Range, Scale};
@@ -50,7 +50,7 @@ impl Default for BodyView {
             title: None,
             road: Some(Road::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [0.0; 3] }),
             edges: true,
-            shading: 0.45,
+            shading: 0.35,
         }
     }
 }
@@ -67,8 +67,8 @@ impl Layout {
         let unit = unit_of([width, height]);
         let [w, h] = [f64::from(width), f64::from(height)];
         let body =
-            Rect { x: 60.0 * unit, y: 105.0 * unit, width: w - 370.0 * unit, height: h - 185.0 * unit };
-        let bar = Rect { x: w - 235.0 * unit, y: 0.24 * h, width: 26.0 * unit, height: 0.52 * h };
+            Rect { x: 60.0 * unit, y: 105.0 * unit, width: w - 400.0 * unit, height: h - 185.0 * unit };
+        let bar = Rect { x: w - 262.0 * unit, y: 0.24 * h, width: 26.0 * unit, height: 0.52 * h };
         Layout { unit, body, bar }
     }
 }
@@ -95,9 +95,10 @@ impl Renderer {
         }
         paint_facets(&mut geometry, &camera, mesh, snapshot, &elements, |v| scale.place(v), &values);
         if options.edges {
-            geometry.segments.extend(edge_lines(&camera, mesh, snapshot, layout.unit));
+            let brightness = brightness(mesh, &elements, |v| scale.place(v), &values, options.map);
+            geometry.segments.extend(edge_lines(&camera, mesh, snapshot, &brightness, layout.unit));
         }
-        geometry.segments.extend(axle_lines(&camera, mesh, snapshot, layout.unit));
+        rim_web(&mut geometry, &camera, mesh, snapshot, layout.unit);
 
         let [width, height] = options.size;
         let frame = Frame { x: 0, y: 0, width, height };
@@ -108,9 +109,9 @@ impl Renderer {
         legend::heading(&mut canvas, options.title.as_deref(), &legend::time_stamp(snapshot.time));
         legend::colour_bar(&mut canvas, layout.bar, &scale, options.map, name);
         let foot = f64::from(height) - 42.0 * layout.unit;
-        let at = [150.0 * layout.unit, foot];
+        let at = [180.0 * layout.unit, foot];
         legend::length_bar(&mut canvas, at, 240.0 * layout.unit, camera.pixels_per_metre());
-        legend::triad(&mut canvas, &camera, [74.0 * layout.unit, foot - 18.0 * layout.unit]);
+        legend::triad(&mut canvas, &camera, [80.0 * layout.unit, foot - 42.0 * layout.unit]);
         canvas.finish()
     }
 
@@ -134,7 +135,7 @@ fn plate(snapshot: &Snapshot, options: &BodyView) -> Option<Plate> {
     let low = points.iter().copied().reduce(DVec3::min)?;
     let high = points.iter().copied().reduce(DVec3::max)?;
     let gap = points.iter().map(|&p| plane.gap(p)).fold(f64::INFINITY, f64::min);
-    (gap.abs() < (high - low).length()).then(|| Plate::under(plane, &points))
+    (gap.abs() < (high - low).length()).then(|| Plate::under(plane, &points, 0.22))
 }
 
 fn is_rigid(mesh: &Mesh, facet: &[u32; 4]) -> bool {
@@ -167,27 +168,79 @@ fn paint_facets(
     }
 }
 
-fn edge_lines(camera: &Camera, mesh: &Mesh, snapshot: &Snapshot, unit: f64) -> Vec<Segment> {
+/// Brightness (0 to 1) of the surface around every node, shape `[node_count]`: lines must stand out from it.
+fn brightness(
+    mesh: &Mesh,
+    elements: &[u32],
+    place: impl Fn(f64) -> f64,
+    values: &field::Values,
+    map: ColourMap,
+) -> Vec<f64> {
+    let mut sums = vec![(0.0, 0.0); mesh.nodes.len()];
+    for (&facet, &element) in mesh.facets.iter().zip(elements) {
+        let rigid = is_rigid(mesh, &facet);
+        for (node, value) in facet.into_iter().zip(values.corners(facet, element)) {
+            let [r, g, b] = linear(if rigid { RIGID } else { map.at(place(value)) }).map(f64::from);
+            let sum = &mut sums[node as usize];
+            *sum = (sum.0 + 0.2126 * r + 0.7152 * g + 0.0722 * b, sum.1 + 1.0);
+        }
+    }
+    sums.into_iter().map(|(sum, count)| if count > 0.0 { sum / count } else { 1.0 }).collect()
+}
+
+/// Surfaces darker than this have light edges.
+const DARK: f64 = 0.07;
+
+/// Element edges: dark on bright colours, light on dark ones.
+fn edge_lines(
+    camera: &Camera,
+    mesh: &Mesh,
+    snapshot: &Snapshot,
+    brightness: &[f64],
+    unit: f64,
+) -> Vec<Segment> {
     let edges = edges(&mesh.facets);
     let apart = median_length(&edges, &snapshot.x) * camera.pixels_per_metre();
     let (width, opacity) = edge_style(apart, unit);
-    lines(camera, &edges, &snapshot.x, ink(INK, opacity), width)
+    let at = |[a, b]: [u32; 2]| 0.5 * (brightness[a as usize] + brightness[b as usize]);
+    let (dark, light): (Vec<[u32; 2]>, Vec<[u32; 2]>) = edges.into_iter().partition(|&e| at(e) < DARK);
+    let mut segments = lines(camera, &dark, &snapshot.x, ink(WHITE, 0.3 * opacity), width);
+    segments.extend(lines(camera, &light, &snapshot.x, ink(INK, opacity), width));
+    segments
 }
 
-/// A spoke in the rim, so that its turning shows from picture to picture, and a stub of the axle.
-fn axle_lines(camera: &Camera, mesh: &Mesh, snapshot: &Snapshot, unit: f64) -> Vec<Segment> {
-    let (Some((axle, turn)), Some(&node)) = (snapshot.axle, mesh.rim.first()) else { return Vec::new() };
+/// A rim that is a cylinder about the axle gets a disc at half its width, with a spoke on it that shows how
+/// far it has turned. Other rigid parts have nothing to add to their facets.
+fn rim_web(geometry: &mut Geometry, camera: &Camera, mesh: &Mesh, snapshot: &Snapshot, unit: f64) {
+    let (Some((axle, turn)), Some(&first)) = (snapshot.axle, mesh.rim.first()) else { return };
+    let arm = |node: u32| DVec3::from(mesh.nodes[node as usize]) - DVec3::from(mesh.axle);
+    let radius = |v: DVec3| v.x.hypot(v.z);
+    let start = arm(first);
+    if mesh.rim.iter().any(|&n| (radius(arm(n)) - radius(start)).abs() > 1e-6 * radius(start)) {
+        return;
+    }
     let axle = DVec3::from(axle);
-    let start = DVec3::from(mesh.nodes[node as usize]) - DVec3::from(mesh.axle);
-    let turned = |v: DVec3| DVec3::from_array(turn.map(|row| DVec3::from(row).dot(v)));
-    let spoke = turned(DVec3::new(start.x, 0.0, start.z));
-    let half = turned(DVec3::new(0.0, start.y, 0.0));
-    let colour = ink(INK, 1.0);
-    let segment = |from: DVec3, to: DVec3, width: f64| Segment {
-        from: camera.local(from),
-        to: camera.local(to),
-        colour,
-        width: (width * unit) as f32,
+    let turned = |v: DVec3| axle + DVec3::from_array(turn.map(|row| DVec3::from(row).dot(v)));
+    let spoke = DVec3::new(start.x, 0.0, start.z);
+    let side = DVec3::new(start.z, 0.0, -start.x);
+    const SIDES: usize = 72;
+    let at = |i: usize| {
+        let (sin, cos) = (std::f64::consts::TAU * i as f64 / SIDES as f64).sin_cos();
+        turned(spoke * cos + side * sin)
     };
-    vec![segment(axle - half, axle + half, 3.0), segment(axle, axle + spoke, 2.2)]
+    let normal = (turned(DVec3::Y) - axle).as_vec3().to_array();
+    for i in 0..SIDES {
+        for point in [axle, at(i), at(i + 1)] {
+            geometry.plain.push(Vertex { position: camera.local(point), normal, paint: linear(WEB) });
+        }
+    }
+    let mut line = |from: DVec3, to: DVec3, width: f64| {
+        let [from, to] = [from, to].map(|p| camera.local(p));
+        geometry.segments.push(Segment { from, to, colour: ink(INK, 1.0), width: (width * unit) as f32 });
+    };
+    line(axle, turned(spoke), 2.2);
+    for sign in [-1.0, 1.0] {
+        line(axle, turned(spoke * 0.08 * sign), 7.0);
+        line(axle, turned(side * 0.08 * sign), 7.0);
+    }
 }

@@ -78,10 +78,12 @@ pub struct Camera {
     size: [u32; 2],
 }
 
-/// Half the depth of the view, in radii: room for the road around the body.
-const DEPTH: f64 = 4.0;
-/// Lines are lifted by this share of the depth: a few pixels at the slope of a steep surface.
-const LIFT: f32 = 6e-4;
+/// Depth of the view before and behind the centre, in radii. What is fitted lies within one; a footprint
+/// also shows some of the body behind it.
+const BEFORE: f64 = 1.1;
+const BEHIND: f64 = 3.0;
+/// How far lines are lifted, in radii: about a pixel at the slope of a steep surface.
+const LIFT: f32 = 0.004;
 
 impl Camera {
     /// A camera of `axes` that shows all of `points` [m] within `rect` of a picture of `size`.
@@ -171,10 +173,13 @@ impl Camera {
         let depth = self.distance.map_or(DVec4::W, |d| DVec4::new(0.0, 0.0, -1.0 / d, 1.0));
         let x = DVec4::X * (2.0 * self.zoom / w) + depth * (2.0 * self.origin[0] / w - 1.0);
         let y = DVec4::Y * (2.0 * self.zoom / h) + depth * (1.0 - 2.0 * self.origin[1] / h);
-        let z = self.distance.map_or(DVec4::new(0.0, 0.0, -0.5 / DEPTH, 0.5), |d| {
-            let (near, far) = ((d - DEPTH).max(0.02 * d), d + DEPTH);
-            DVec4::new(0.0, 0.0, -1.0, d - near) * (far / (far - near) / d)
-        });
+        let z = match self.distance {
+            None => DVec4::new(0.0, 0.0, -1.0, BEFORE) / (BEFORE + BEHIND),
+            Some(d) => {
+                let (near, far) = (d - BEFORE, d + BEHIND);
+                DVec4::new(0.0, 0.0, -1.0, d - near) * (far / (far - near) / d)
+            }
+        };
         let rotate = DMat4::from_cols(right.extend(0.0), up.extend(0.0), back.extend(0.0), DVec4::W);
         let clip = DMat4::from_cols(x, y, z, depth).transpose() * rotate.transpose();
         let light = (back + 0.55 * up - 0.45 * right).normalize();

@@ -11,6 +11,7 @@ use crate::scene::Road;
 /// A touching node.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
+    pub node: u32,
     pub x: DVec3,
     /// Coordinates in the road's plane [m].
     pub flat: DVec2,
@@ -50,15 +51,17 @@ impl Contact {
         let low = flats().reduce(DVec2::min).unwrap_or(DVec2::ZERO);
         let high = flats().reduce(DVec2::max).unwrap_or(DVec2::ZERO);
         // Room for arrows around the outermost nodes, and something to see if only one node touches.
-        let margin = DVec2::splat((0.1 * (high - low).max_element()).max(1.5 * spacing));
+        let margin = DVec2::splat((0.06 * (high - low).max_element()).max(1.3 * spacing));
         let (low, high) = (low - margin, high + margin);
         let facets = facing_facets(mesh, snapshot, &plane, (high - low).length());
         Contact { plane, touches, low, high, spacing, facets }
     }
 
-    /// Largest tangential force [N].
+    /// Largest tangential force [N]; zero where it is nothing but the round-off of the normal forces.
     pub fn largest_shear(&self) -> f64 {
-        self.touches.iter().map(|t| t.shear.length()).fold(0.0, f64::max)
+        let largest = |force: fn(&Touch) -> f64| self.touches.iter().map(force).fold(0.0, f64::max);
+        let (shear, normal) = (largest(|t| t.shear.length()), largest(|t| t.normal));
+        if shear > 1e-6 * normal { shear } else { 0.0 }
     }
 
     /// Total force of the road on the body: along, across, normal [N].
@@ -72,11 +75,6 @@ impl Contact {
         let (l, h) = (self.low, self.high);
         [l, DVec2::new(h.x, l.y), h, DVec2::new(l.x, h.y)].map(|c| self.plane.at(c, 0.0))
     }
-
-    /// Share of the touching nodes' positions: whether every corner of a facet touches.
-    pub fn is_touching(&self, touching: &[bool], facet: &[u32; 4]) -> bool {
-        facet.iter().all(|&n| touching[n as usize])
-    }
 }
 
 fn touches(snapshot: &Snapshot, plane: &Plane) -> Vec<Touch> {
@@ -85,6 +83,7 @@ fn touches(snapshot: &Snapshot, plane: &Plane) -> Vec<Touch> {
         .map(|c| {
             let (x, force) = (DVec3::from(snapshot.x[c.node as usize]), DVec3::from(c.force));
             Touch {
+                node: c.node,
                 x,
                 flat: plane.flat(x),
                 normal: plane.normal.dot(force),

@@ -5,11 +5,12 @@ use image::RgbaImage;
 
 use super::camera::{Camera, Projection, Rect, View};
 use super::canvas::{Anchor, Canvas, Weight};
-use super::colour::{ColourMap, INK, QUIET, SLIP, ink, linear};
+use super::colour::{ColourMap, INK, QUIET, ink, linear};
 use super::contact::{Contact, Touch, touching, travel};
 use super::gpu::{Frame, Geometry};
-use super::scale::{Range, Scale, number, prefix, quantity, round_below, round_step, round_values};
+use super::scale::{Range, Scale, number, prefix, round_step, round_values};
 use super::surface::{edge_style, edges, lines, quad};
+use super::symbols::{StateSymbol, Symbols, state_legend, travel_legend};
 use super::{DEFAULT_SIZE, Renderer, check_size, field, legend, unit_of};
 use crate::Result;
 use crate::model::mesh::Mesh;
@@ -141,7 +142,15 @@ impl Renderer {
         let axes = [plane.along, -plane.across, -plane.normal];
         let camera =
             Camera::fit(axes, Projection::Orthographic, &contact.corners(), layout.plot, options.size);
-        let geometry = body_from_below(mesh, snapshot, contact, &camera, layout.unit);
+        let symbols = Symbols::new(contact, camera.pixels_per_metre(), layout.unit);
+        let place = |touch: &Touch| scale.place(options.colour.of(touch));
+        let mut geometry = body_from_below(mesh, snapshot, contact, &camera, layout.unit);
+        if symbols.state == StateSymbol::Dot {
+            let touching = contact_facets(mesh, snapshot, contact, place);
+            for (corners, paint) in touching {
+                quad(&mut geometry.mapped, &camera, corners, paint);
+            }
+        }
         let Rect { x, y, width, height } = layout.plot;
         let frame = Frame { x: x as u32, y: y as u32, width: width as u32, height: height as u32 };
         let view = camera.uniform(0.0);
@@ -150,23 +159,18 @@ impl Renderer {
         let mut canvas = Canvas::new(picture, &self.fonts, layout.unit)?;
         caption(&mut canvas, snapshot, options, contact);
         plot_frame(&mut canvas, layout.plot, &camera, contact);
-        let shear = ShearScale::new(contact, camera.pixels_per_metre(), layout.unit);
         for touch in &contact.touches {
-            let fill = options.map.at(scale.place(options.colour.of(touch)));
-            marker(&mut canvas, camera.project(touch.x.into()), shear.marker, fill, touch.slips);
+            let fill = options.map.at(place(touch));
+            symbols.node(&mut canvas, camera.project(touch.x.into()), fill, touch.slips);
         }
-        for touch in &contact.touches {
-            let from = camera.project(touch.x.into());
-            let to = [0, 1].map(|d| from[d] + touch.shear[d] * shear.pixels_per_newton);
-            canvas.arrow(from, to, shear.width, if touch.slips { SLIP } else { INK });
-        }
+        symbols.arrows(&mut canvas, &camera, contact);
         if contact.touches.is_empty() {
             let middle = [x + 0.5 * width, y + 0.5 * height];
             canvas.text("no contact", middle, Anchor::Middle, Weight::Medium, 30.0, QUIET, 0.0);
         }
         let mut y = colour_legend(&mut canvas, &layout, options, contact, scale);
-        y = shear.legend(&mut canvas, [layout.legend.x, y]);
-        y = state_legend(&mut canvas, [layout.legend.x, y], contact);
+        y = symbols.legend(&mut canvas, [layout.legend.x, y]);
+        y = state_legend(&mut canvas, [layout.legend.x, y], contact, symbols.state);
         if let Some(way) = travel(mesh, snapshot, options.road, &plane) {
             travel_legend(&mut canvas, [layout.legend.x, y], [way.x, way.y]);
         }
@@ -189,7 +193,8 @@ fn body_from_below(
         let corners = facet.map(|n| DVec3::from(snapshot.x[n as usize]));
         let paint = corners.map(|x| {
             let share = (contact.plane.gap(x) / reach).clamp(0.0, 1.0).sqrt() as f32;
-            let share = if contact.is_touching(&touching, &facet) { 0.0 } else { 0.25 + 0.75 * share };
+            let touches = facet.iter().all(|&n| touching[n as usize]);
+            let share = if touches { 0.0 } else { 0.25 + 0.75 * share };
             std::array::from_fn(|d| near[d] + share * (far[d] - near[d]))
         });
         quad(&mut geometry.plain, camera, corners, paint);
@@ -198,6 +203,28 @@ fn body_from_below(
     let (width, opacity) = edge_style(contact.spacing * camera.pixels_per_metre(), unit);
     geometry.segments = lines(camera, &edges, &snapshot.x, ink(QUIET, 0.6 * opacity), width);
     geometry
+}
+
+/// The facets whose corners all touch, with their places on the colour bar: too fine a mesh for markers.
+fn contact_facets(
+    mesh: &Mesh,
+    snapshot: &Snapshot,
+    contact: &Contact,
+    place: impl Fn(&Touch) -> f64,
+) -> Vec<([DVec3; 4], [[f32; 3]; 4])> {
+    let mut places = vec![None; mesh.nodes.len()];
+    for touch in &contact.touches {
+        places[touch.node as usize] = Some(place(touch) as f32);
+    }
+    let facet = |facet: &[u32; 4]| {
+        let corners = facet.map(|n| DVec3::from(snapshot.x[n as usize]));
+        let mut paint = [[0.0; 3]; 4];
+        for (paint, node) in paint.iter_mut().zip(facet) {
+            paint[0] = places[*node as usize]?;
+        }
+        Some((corners, paint))
+    };
+    contact.facets.iter().filter_map(facet).collect()
 }
 
 /// Title, time and the total force.
@@ -228,7 +255,7 @@ fn plot_frame(canvas: &mut Canvas, plot: Rect, camera: &Camera, contact: &Contac
         [(left - middle[0]) / per_metre, (top - middle[1]) / per_metre],
         [(right - middle[0]) / per_metre, (bottom - middle[1]) / per_metre],
     );
-    let step = round_step(high[0] - low[0], 10);
+    let step = round_step(high[1] - low[1], 8).max(round_step(high[0] - low[0], 16));
     let (factor, unit) = prefix("m", 1.5 * step * 5.0);
     for value in round_values(low[0], high[0], step) {
         let x = middle[0] + value * per_metre;
@@ -252,56 +279,6 @@ fn plot_frame(canvas: &mut Canvas, plot: Rect, camera: &Camera, contact: &Contac
     canvas.text("seen from below", note, Anchor::Right, Weight::Regular, 17.0, QUIET, 0.0);
 }
 
-/// A disc where a node sticks, a diamond with a coloured rim where it slips.
-fn marker(canvas: &mut Canvas, at: [f64; 2], radius: f64, fill: [u8; 3], slips: bool) {
-    let rim = 0.16 * radius;
-    if slips {
-        let r = 1.2 * radius;
-        let points = [[at[0], at[1] - r], [at[0] + r, at[1]], [at[0], at[1] + r], [at[0] - r, at[1]]];
-        canvas.polygon(&points, fill, Some((rim.max(canvas.unit), SLIP)));
-    } else {
-        canvas.disc(at, radius, fill, Some((rim.max(canvas.unit), INK)));
-    }
-}
-
-/// Sizes of markers and arrows in pixels, chosen by the distance of the nodes.
-struct ShearScale {
-    marker: f64,
-    width: f64,
-    pixels_per_newton: f64,
-    largest: f64,
-}
-
-impl ShearScale {
-    fn new(contact: &Contact, pixels_per_metre: f64, unit: f64) -> ShearScale {
-        let apart = contact.spacing * pixels_per_metre;
-        let largest = contact.largest_shear();
-        let longest = (1.1 * apart).clamp(14.0 * unit, 130.0 * unit);
-        ShearScale {
-            marker: (0.17 * apart).clamp(2.0 * unit, 15.0 * unit),
-            width: (0.035 * apart).clamp(1.2 * unit, 4.2 * unit),
-            pixels_per_newton: if largest > 0.0 { longest / largest } else { 0.0 },
-            largest,
-        }
-    }
-
-    /// A reference arrow of a round force; returns where the next legend may start.
-    fn legend(&self, canvas: &mut Canvas, [x, y]: [f64; 2]) -> f64 {
-        let u = canvas.unit;
-        if self.largest <= 0.0 {
-            return y;
-        }
-        canvas.text("Shear force on the body", [x, y], Anchor::Left, Weight::Medium, 20.0, INK, 0.0);
-        let force = round_below(self.largest);
-        let y = y + 34.0 * u;
-        let end = x + force * self.pixels_per_newton;
-        canvas.arrow([x, y], [end, y], self.width, INK);
-        let label = quantity(force, "N", 1);
-        canvas.text(&label, [end + 14.0 * u, y], Anchor::Left, Weight::Regular, 19.0, INK, 0.0);
-        y + 50.0 * u
-    }
-}
-
 /// The colour bar, if anything touches; returns where the next legend may start.
 pub(super) fn colour_legend(
     canvas: &mut Canvas,
@@ -318,32 +295,4 @@ pub(super) fn colour_legend(
     let bar = Rect { x, y: y + 40.0 * u, width: 26.0 * u, height: 0.44 * height };
     legend::colour_bar(canvas, bar, scale, options.map, options.colour.name().0);
     bar.y + bar.height + 54.0 * u
-}
-
-/// Markers of sticking and slipping nodes with their number.
-pub(super) fn state_legend(canvas: &mut Canvas, [x, mut y]: [f64; 2], contact: &Contact) -> f64 {
-    let u = canvas.unit;
-    let slipping = contact.touches.iter().filter(|t| t.slips).count();
-    for (slips, count) in [(false, contact.touches.len() - slipping), (true, slipping)] {
-        if count > 0 {
-            let colour = if slips { SLIP } else { INK };
-            marker(canvas, [x + 10.0 * u, y], 9.0 * u, [236, 238, 241], slips);
-            let what = if slips { "slipping" } else { "sticking" };
-            let nodes = if count == 1 { "node" } else { "nodes" };
-            let label = format!("{what}: {count} {nodes}");
-            canvas.text(&label, [x + 32.0 * u, y], Anchor::Left, Weight::Regular, 19.0, colour, 0.0);
-            y += 32.0 * u;
-        }
-    }
-    y + 24.0 * u
-}
-
-/// An arrow in the direction of travel; `way`: right and down.
-pub(super) fn travel_legend(canvas: &mut Canvas, [x, y]: [f64; 2], way: [f64; 2]) {
-    let u = canvas.unit;
-    canvas.text("Direction of travel", [x, y], Anchor::Left, Weight::Medium, 20.0, INK, 0.0);
-    let middle = [x + 50.0 * u, y + 52.0 * u];
-    let half = 40.0 * u;
-    let end = |sign: f64| [middle[0] + sign * half * way[0], middle[1] + sign * half * way[1]];
-    canvas.arrow(end(-1.0), end(1.0), 5.0 * u, QUIET);
 }

@@ -93,28 +93,40 @@ pub fn triad(canvas: &mut Canvas, camera: &Camera, at: [f64; 2]) {
     let mut axes = axes.map(|(axis, name)| (camera.turn(axis), name));
     // The one that points away from the eye first, so that the others lie over it.
     axes.sort_by(|a, b| a.0[2].total_cmp(&b.0[2]));
-    for ([right, up, back], name) in axes {
-        let length = 46.0 * u;
-        let tip = [at[0] + length * right, at[1] - length * up];
+    let length = 46.0 * u;
+    for ([right, up, _], name) in axes {
         let flat = right.hypot(up);
-        if flat > 0.12 {
-            canvas.arrow(at, tip, 2.2 * u, INK);
+        if flat > FORESHORTENED {
+            canvas.arrow(at, [at[0] + length * right, at[1] - length * up], 2.2 * u, INK);
             let reach = (length * flat + 13.0 * u) / flat;
             let label = [at[0] + reach * right, at[1] - reach * up];
             canvas.text(name, label, Anchor::Middle, Weight::Medium, 18.0, INK, 0.0);
-        } else {
-            // Along the line of sight: a dot towards the reader, a cross away from the reader.
-            canvas.disc(at, 6.5 * u, WHITE, Some((1.6 * u, INK)));
-            let s = 4.0 * u;
-            if back > 0.0 {
-                canvas.disc(at, 2.4 * u, INK, None);
-            } else {
-                for s2 in [s, -s] {
-                    canvas.line(&[[at[0] - s, at[1] - s2], [at[0] + s, at[1] + s2]], 1.6 * u, INK, None);
-                }
-            }
-            let label = [at[0] - 15.0 * u, at[1] + 15.0 * u];
+        }
+    }
+    for ([right, up, back], name) in axes {
+        if right.hypot(up) <= FORESHORTENED {
+            along_sight(canvas, at, back > 0.0);
+            // Where no other axis points: opposite to their sum.
+            let sum = axes.iter().fold([0.0; 2], |s, (a, _)| [s[0] + a[0], s[1] + a[1]]);
+            let label = [0, 1].map(|d| at[d] - 17.0 * u * sum[d].signum() * [1.0, -1.0][d]);
             canvas.text(name, label, Anchor::Middle, Weight::Medium, 18.0, INK, 0.0);
         }
+    }
+}
+
+/// An axis shorter than this share of its length is shown as one along the line of sight.
+const FORESHORTENED: f64 = 0.12;
+
+/// The sign of an axis along the line of sight: a dot towards the reader, a cross away from the reader.
+fn along_sight(canvas: &mut Canvas, at: [f64; 2], towards: bool) {
+    let u = canvas.unit;
+    canvas.disc(at, 7.5 * u, WHITE, Some((1.8 * u, INK)));
+    if towards {
+        canvas.disc(at, 2.6 * u, INK, None);
+        return;
+    }
+    let s = 7.5 * u * std::f64::consts::FRAC_1_SQRT_2;
+    for slant in [s, -s] {
+        canvas.line(&[[at[0] - s, at[1] - slant], [at[0] + s, at[1] + slant]], 1.5 * u, INK, None);
     }
 }

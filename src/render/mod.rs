@@ -17,6 +17,7 @@ mod relief;
 mod road;
 mod scale;
 mod surface;
+mod symbols;
 
 pub use body::BodyView;
 pub use camera::{Camera, Projection, View};

@@ -8,12 +8,13 @@ use super::camera::{Camera, Projection, View};
 use super::canvas::{Anchor, Canvas, Weight};
 use super::colour::{INK, QUIET, SLIP, ink, linear};
 use super::contact::{Contact, travel};
-use super::footprint::{FootprintView, Layout, caption, colour_legend, state_legend, travel_legend};
+use super::footprint::{FootprintView, Layout, caption, colour_legend};
 use super::gpu::{Frame, Geometry, Vertex};
 use super::legend;
 use super::road::Plate;
 use super::scale::{Scale, quantity, round_below};
 use super::surface::{edges, lines};
+use super::symbols::{StateSymbol, state_legend, travel_legend};
 use crate::Result;
 use crate::model::mesh::Mesh;
 use crate::record::Snapshot;
@@ -39,7 +40,7 @@ impl Renderer {
         let largest = contact.touches.iter().map(|t| t.normal.max(t.shear.length())).fold(0.0, f64::max);
         let reach = REACH * (contact.high - contact.low).max_element();
         let metres_per_newton = if largest > 0.0 { reach / largest } else { 0.0 };
-        let plate = Plate::under(plane, &contact.corners());
+        let plate = Plate::under(plane, &contact.corners(), 0.03);
         let mut points = plate.corners().to_vec();
         points.extend(plate.foot());
         points.extend(contact.touches.iter().map(|t| t.x + plane.normal * (t.normal * metres_per_newton)));
@@ -48,7 +49,7 @@ impl Renderer {
         let mut geometry = Geometry::default();
         plate.draw(&camera, layout.unit, &mut geometry);
         outline(&mut geometry, &camera, snapshot, contact, layout.unit);
-        let thick = 0.055 * contact.spacing;
+        let thick = 0.045 * contact.spacing;
         for touch in &contact.touches {
             let normal = plane.normal * (touch.normal * metres_per_newton);
             let shear = plane.along * touch.shear.x + plane.across * touch.shear.y;
@@ -73,14 +74,14 @@ impl Renderer {
             let at = [layout.plot.x, layout.plot.y];
             canvas.text("no contact", at, Anchor::Left, Weight::Medium, 30.0, QUIET, 0.0);
         }
-        y = state_legend(&mut canvas, [x, y], contact);
+        y = state_legend(&mut canvas, [x, y], contact, StateSymbol::Arrow);
         if let Some(way) = travel(mesh, snapshot, options.road, &plane) {
             let [right, up, _] = camera.turn(plane.along * way.x + plane.across * way.y);
             travel_legend(&mut canvas, [x, y], [right, -up]);
         }
         let foot = f64::from(height) - 42.0 * u;
-        legend::length_bar(&mut canvas, [150.0 * u, foot], 240.0 * u, camera.pixels_per_metre());
-        legend::triad(&mut canvas, &camera, [74.0 * u, foot - 18.0 * u]);
+        legend::length_bar(&mut canvas, [180.0 * u, foot], 240.0 * u, camera.pixels_per_metre());
+        legend::triad(&mut canvas, &camera, [80.0 * u, foot - 42.0 * u]);
         canvas.finish()
     }
 }
@@ -88,8 +89,10 @@ impl Renderer {
 /// The body's facets by the road, as lines: they must not hide the arrows.
 fn outline(geometry: &mut Geometry, camera: &Camera, snapshot: &Snapshot, contact: &Contact, unit: f64) {
     let inside = |n: &u32| {
-        let flat = contact.plane.flat(DVec3::from(snapshot.x[*n as usize]));
-        flat.cmpge(contact.low).all() && flat.cmple(contact.high).all()
+        let x = DVec3::from(snapshot.x[*n as usize]);
+        let flat = contact.plane.flat(x);
+        let is_near = contact.plane.gap(x) < contact.spacing;
+        is_near && flat.cmpge(contact.low).all() && flat.cmple(contact.high).all()
     };
     let near: Vec<[u32; 4]> = contact.facets.iter().filter(|f| f.iter().all(inside)).copied().collect();
     geometry.segments.extend(lines(camera, &edges(&near), &snapshot.x, ink(QUIET, 0.8), 1.2 * unit));

@@ -62,18 +62,18 @@ const SIDE: [u8; 3] = [214, 217, 223];
 const GRID: [u8; 3] = [196, 201, 209];
 
 impl Plate {
-    /// A plate under `points`, wider than them by a part of their size.
-    pub fn under(plane: Plane, points: &[DVec3]) -> Plate {
+    /// A plate under `points`, wider than them by `margin` times their size.
+    pub fn under(plane: Plane, points: &[DVec3], margin: f64) -> Plate {
         let flats = || points.iter().map(|&p| plane.flat(p));
         let low = flats().reduce(DVec2::min).unwrap_or(DVec2::ZERO);
         let high = flats().reduce(DVec2::max).unwrap_or(DVec2::ONE);
         let size = (high - low).max_element();
-        let margin = DVec2::splat(0.22 * size);
+        let margin = DVec2::splat(margin * size);
         Plate {
             plane,
             low: low - margin,
             high: high + margin,
-            thickness: 0.05 * size,
+            thickness: 0.045 * size,
             spacing: round_step(size, 10),
         }
     }
@@ -100,8 +100,12 @@ impl Plate {
                 quad(&mut geometry.plain, camera, [foot[c], foot[n], top[n], top[c]], [linear(SIDE); 4]);
             }
         }
-        for (line, colour, width) in self.grid() {
+        for (line, mut colour, width) in self.grid() {
             let [from, to] = line.map(|p| camera.local(p));
+            if facing < 0.0 {
+                // Over the body: fainter.
+                colour[3] *= 0.4;
+            }
             geometry.segments.push(Segment { from, to, colour, width: (width * unit) as f32 });
         }
     }

@@ -118,7 +118,10 @@ pub fn number(value: f64, step: f64) -> String {
 pub fn quantity(value: f64, unit: &str, digits: i32) -> String {
     let (factor, unit) = prefix(unit, value.abs());
     let scaled = value / factor;
-    let lead = if scaled == 0.0 { 0 } else { scaled.abs().log10().floor() as i32 };
-    let text = number(scaled, 10f64.powi(lead - digits + 1).min(1.0));
+    let text = if scaled == 0.0 {
+        "0".to_string()
+    } else {
+        number(scaled, 10f64.powi(scaled.abs().log10().floor() as i32 - digits + 1).min(1.0))
+    };
     if unit.is_empty() { text } else { format!("{text} {unit}") }
 }
