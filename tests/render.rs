@@ -5,7 +5,11 @@
 
 #![allow(non_snake_case)] // X: reference positions
 
-use std::path::PathBuf;
+#[path = "render/gallery.rs"]
+mod gallery;
+#[path = "render/inputs.rs"]
+mod inputs;
+
 use std::sync::{Arc, Mutex};
 
 use hexroll::Error;
@@ -15,8 +19,9 @@ use hexroll::render::{
     BodyView, Camera, ColourMap, FootprintColour, FootprintStyle, FootprintView, Projection, Range, Renderer,
     View,
 };
-use hexroll::scene::{Field, MeshSpec, NodeSet, Road};
+use hexroll::scene::{Field, MeshSpec};
 use image::RgbaImage;
+use inputs::{INNER, OUTER, WIDTH, at_rest, rolling, wheel};
 use libtest_mimic::{Arguments, Failed, Trial};
 
 type Check = fn(&mut Renderer);
@@ -56,95 +61,9 @@ fn main() {
     };
     let mut trials: Vec<Trial> = CHECKS.iter().map(|(name, check)| trial(name, *check)).collect();
     if std::env::var_os("HEXROLL_TEST_PICTURES").is_some() {
-        trials.push(trial("gallery", gallery));
+        trials.push(trial("gallery", gallery::gallery));
     }
     libtest_mimic::run(&arguments, trials).exit();
-}
-
-// ---------------------------------------------------------------------------------------------- inputs
-
-const OUTER: f64 = 39e-3;
-const INNER: f64 = 17e-3;
-const WIDTH: f64 = 17.5e-3;
-
-fn wheel(scale: f64) -> Mesh {
-    let spec = MeshSpec::Ring {
-        outer_radius: OUTER * scale,
-        inner_radius: INNER * scale,
-        width: WIDTH * scale,
-        elements: [44, 4, 5],
-    };
-    Mesh::generate(&spec, [0.0; 3], Some(NodeSet::Inner))
-}
-
-/// The wheel as built: nothing deformed, nothing touching.
-fn at_rest(mesh: &Mesh) -> Snapshot {
-    let elements = mesh.hexes.len();
-    Snapshot {
-        time: 0.0,
-        x: mesh.nodes.clone(),
-        v: vec![[0.0; 3]; mesh.nodes.len()],
-        pressure: vec![0.0; elements],
-        von_mises: vec![0.0; elements],
-        volume_ratio: vec![1.0; elements],
-        axle: Some((mesh.axle, [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.]])),
-        ..Snapshot::default()
-    }
-}
-
-/// A made-up rolling wheel: lowered by 2.2 mm, flat at the road, turned a little; a parabolic pressure over
-/// the patch, shear that drives, and slip where it is largest.
-fn rolling(mesh: &Mesh, scale: f64) -> Snapshot {
-    let mut snapshot = at_rest(mesh);
-    let sink = 2.2e-3 * scale;
-    let (sin, cos) = 0.1_f64.sin_cos();
-    let axle = [5e-3 * scale, 0.0, mesh.axle[2] - sink];
-    for (x, X) in snapshot.x.iter_mut().zip(&mesh.nodes) {
-        let (dx, dz) = (X[0] - mesh.axle[0], X[2] - mesh.axle[2]);
-        *x = [axle[0] + cos * dx + sin * dz, X[1], axle[2] - sin * dx + cos * dz];
-        if x[2] < 0.012 * scale {
-            // Squeezed towards the road, bulging sideways.
-            let depth = (0.012 * scale - x[2]) / (0.0142 * scale);
-            x[1] *= 1.0 + 0.12 * depth * depth;
-            x[2] = x[2].max(0.0);
-        }
-    }
-    snapshot.time = 30e-3;
-    snapshot.axle = Some((axle, [[cos, 0., sin], [0., 1., 0.], [-sin, 0., cos]]));
-    for (v, x) in snapshot.v.iter_mut().zip(&snapshot.x) {
-        *v = [2.58 + 70.0 * (x[2] - axle[2]), 0.0, -70.0 * (x[0] - axle[0])];
-    }
-    for (element, hex) in mesh.hexes.iter().enumerate() {
-        let middle = |d: usize| hex.iter().map(|&n| snapshot.x[n as usize][d]).sum::<f64>() / 8.0;
-        let (dx, dz) = (middle(0) - axle[0], middle(2));
-        let load = (-(dx * dx + dz * dz) / (0.012 * scale).powi(2)).exp();
-        snapshot.pressure[element] = 0.9e6 * load - 0.05e6;
-        snapshot.von_mises[element] = 1.3e6 * load + 0.1e6 * (1.0 - dz / (0.08 * scale)).abs();
-        snapshot.volume_ratio[element] = 1.0 - 0.011 * load;
-    }
-    snapshot.contact = patch(mesh, &snapshot, axle[0], scale);
-    snapshot
-}
-
-fn patch(mesh: &Mesh, snapshot: &Snapshot, middle: f64, scale: f64) -> Vec<ContactNode> {
-    let half = 13e-3 * scale;
-    let node = |&node: &u32| {
-        let x = snapshot.x[node as usize];
-        let s = (x[0] - middle) / half;
-        if x[2] > 1e-9 || s.abs() >= 1.0 {
-            let (force, area, pressure, slip_speed) = ([0.0; 3], 0.0, 0.0, 0.0);
-            return ContactNode { node, force, area, pressure, slip_speed, state: ContactState::Free };
-        }
-        let area = 1.9e-5 * scale * scale;
-        let pressure = 0.75e6 * (1.0 - s * s) * (1.0 - 0.3 * (x[1] / (9e-3 * scale)).powi(2));
-        let normal = pressure * area;
-        let slips = s < -0.35;
-        let shear = if slips { normal } else { 0.6 * normal * (0.75 - s) };
-        let force = [0.97 * shear, 0.24 * shear * x[1] / (9e-3 * scale), normal];
-        let state = if slips { ContactState::Slip } else { ContactState::Stick };
-        ContactNode { node, force, area, pressure, slip_speed: if slips { 0.3 } else { 0.0 }, state }
-    };
-    mesh.surface.iter().map(node).collect()
 }
 
 /// Small pictures: the tests look at places, not at print quality.
@@ -460,76 +379,5 @@ fn errors(renderer: &mut Renderer) {
     for size in [[0, 450], [800, 1_000_000]] {
         let result = renderer.body(&mesh, &good, &BodyView { size, ..BodyView::default() });
         assert!(matches!(result, Err(Error::Picture { .. })));
-    }
-}
-
-// --------------------------------------------------------------------------------------------- gallery
-
-/// Full-size pictures of every kind, for the eye.
-fn gallery(renderer: &mut Renderer) {
-    let folder = PathBuf::from(std::env::var_os("HEXROLL_TEST_PICTURES").unwrap());
-    std::fs::create_dir_all(&folder).unwrap();
-    let save = |name: &str, picture: RgbaImage| picture.save(folder.join(format!("{name}.png"))).unwrap();
-    let mesh = wheel(1.0);
-    let snapshot = rolling(&mesh, 1.0);
-    let title = Some("LAT-100 wheel, straight rolling".to_string());
-    let body = BodyView { title: title.clone(), ..BodyView::default() };
-    let perspective = Projection::Perspective { angle: 30.0 };
-    let bodies = [
-        ("iso_von_mises", BodyView { ..body.clone() }),
-        ("perspective_speed", BodyView { projection: perspective, field: Field::Velocity, ..body.clone() }),
-        ("side_pressure", BodyView { view: View::Side, field: Field::Pressure, ..body.clone() }),
-        ("front_volume_ratio", BodyView { view: View::Front, field: Field::VolumeRatio, ..body.clone() }),
-        ("behind_displacement", BodyView { view: View::Behind, field: Field::Displacement, ..body.clone() }),
-        ("below_contact", BodyView { view: View::Below, field: Field::ContactForce, ..body.clone() }),
-        ("fixed_range", BodyView { range: Range::Fixed(0.0, 0.5e6), map: ColourMap::Cividis, ..body }),
-    ];
-    for (name, options) in bodies {
-        save(name, renderer.body(&mesh, &snapshot, &options).unwrap());
-    }
-    let flat = FootprintView { title, ..FootprintView::default() };
-    let arrows = FootprintStyle::Arrows { view: View::Angles { azimuth: -62.0, elevation: 32.0 } };
-    let feet = [
-        ("footprint", flat.clone()),
-        ("footprint_pressure", FootprintView { colour: FootprintColour::Pressure, ..flat.clone() }),
-        ("footprint_arrows", FootprintView { style: arrows, ..flat.clone() }),
-    ];
-    for (name, options) in feet {
-        save(name, renderer.footprint(&mesh, &snapshot, &options).unwrap());
-    }
-    save("footprint_empty", renderer.footprint(&mesh, &at_rest(&mesh), &flat).unwrap());
-    slope(renderer, &save);
-}
-
-/// A block of ten millimetres on a slope, and one of a metre.
-fn slope(renderer: &mut Renderer, save: &dyn Fn(&str, RgbaImage)) {
-    let (sin, cos) = 20.0_f64.to_radians().sin_cos();
-    let road = Road::Plane { point: [0.0; 3], normal: [-sin, 0.0, cos], velocity: [0.0; 3] };
-    for (name, size, elements) in [("block_10mm", 0.01, [12, 8, 4]), ("block_1m", 1.0, [60, 40, 20])] {
-        let spec = MeshSpec::Block { size: [size, 0.7 * size, 0.35 * size], elements };
-        let mesh = Mesh::generate(&spec, [0.0; 3], None);
-        let mut snapshot = at_rest(&mesh);
-        snapshot.axle = None;
-        for (x, X) in snapshot.x.iter_mut().zip(&mesh.nodes) {
-            *x = [cos * X[0] - sin * X[2], X[1], sin * X[0] + cos * X[2]];
-        }
-        for (value, hex) in snapshot.von_mises.iter_mut().zip(&mesh.hexes) {
-            *value = 3e3 * (1.0 - mesh.nodes[hex[0] as usize][2] / (0.4 * size)).powi(2);
-        }
-        let bottom = mesh.surface.iter().filter(|&&n| mesh.nodes[n as usize][2] == 0.0);
-        snapshot.contact = bottom
-            .map(|&node| {
-                let share = 0.5 + mesh.nodes[node as usize][0] / size;
-                let force = [-0.02 * sin, 1e-3 * share, 0.02 * share * cos].map(|f| f * size * size);
-                let state = if share < 0.9 { ContactState::Stick } else { ContactState::Slip };
-                ContactNode { node, force, area: 1e-6, pressure: 0.0, slip_speed: 0.0, state }
-            })
-            .collect();
-        save(
-            name,
-            renderer.body(&mesh, &snapshot, &BodyView { road: Some(road), ..BodyView::default() }).unwrap(),
-        );
-        let view = FootprintView { road, ..FootprintView::default() };
-        save(&format!("{name}_footprint"), renderer.footprint(&mesh, &snapshot, &view).unwrap());
     }
 }

@@ -67,7 +67,7 @@ impl Layout {
         let unit = unit_of([width, height]);
         let [w, h] = [f64::from(width), f64::from(height)];
         let body =
-            Rect { x: 60.0 * unit, y: 105.0 * unit, width: w - 400.0 * unit, height: h - 185.0 * unit };
+            Rect { x: 150.0 * unit, y: 105.0 * unit, width: w - 460.0 * unit, height: h - 185.0 * unit };
         let bar = Rect { x: w - 262.0 * unit, y: 0.24 * h, width: 26.0 * unit, height: 0.52 * h };
         Layout { unit, body, bar }
     }
@@ -168,7 +168,8 @@ fn paint_facets(
     }
 }
 
-/// Brightness (0 to 1) of the surface around every node, shape `[node_count]`: lines must stand out from it.
+/// Brightness (0 to 1) of the coloured surface around every node, shape `[node_count]`: lines must stand out
+/// from it.
 fn brightness(
     mesh: &Mesh,
     elements: &[u32],
@@ -177,10 +178,9 @@ fn brightness(
     map: ColourMap,
 ) -> Vec<f64> {
     let mut sums = vec![(0.0, 0.0); mesh.nodes.len()];
-    for (&facet, &element) in mesh.facets.iter().zip(elements) {
-        let rigid = is_rigid(mesh, &facet);
+    for (&facet, &element) in mesh.facets.iter().zip(elements).filter(|(f, _)| !is_rigid(mesh, f)) {
         for (node, value) in facet.into_iter().zip(values.corners(facet, element)) {
-            let [r, g, b] = linear(if rigid { RIGID } else { map.at(place(value)) }).map(f64::from);
+            let [r, g, b] = linear(map.at(place(value))).map(f64::from);
             let sum = &mut sums[node as usize];
             *sum = (sum.0 + 0.2126 * r + 0.7152 * g + 0.0722 * b, sum.1 + 1.0);
         }
@@ -202,10 +202,14 @@ fn edge_lines(
     let edges = edges(&mesh.facets);
     let apart = median_length(&edges, &snapshot.x) * camera.pixels_per_metre();
     let (width, opacity) = edge_style(apart, unit);
-    let at = |[a, b]: [u32; 2]| 0.5 * (brightness[a as usize] + brightness[b as usize]);
-    let (dark, light): (Vec<[u32; 2]>, Vec<[u32; 2]>) = edges.into_iter().partition(|&e| at(e) < DARK);
-    let mut segments = lines(camera, &dark, &snapshot.x, ink(WHITE, 0.3 * opacity), width);
-    segments.extend(lines(camera, &light, &snapshot.x, ink(INK, opacity), width));
+    let is_rim = |n: u32| mesh.rim.binary_search(&n).is_ok();
+    let is_dark = |&[a, b]: &[u32; 2]| {
+        let mean = 0.5 * (brightness[a as usize] + brightness[b as usize]);
+        mean < DARK && !(is_rim(a) && is_rim(b))
+    };
+    let (dark, bright): (Vec<[u32; 2]>, Vec<[u32; 2]>) = edges.into_iter().partition(is_dark);
+    let mut segments = lines(camera, &dark, &snapshot.x, ink(WHITE, 0.17 * opacity), width);
+    segments.extend(lines(camera, &bright, &snapshot.x, ink(INK, opacity), width));
     segments
 }
 
@@ -223,24 +227,26 @@ fn rim_web(geometry: &mut Geometry, camera: &Camera, mesh: &Mesh, snapshot: &Sna
     let turned = |v: DVec3| axle + DVec3::from_array(turn.map(|row| DVec3::from(row).dot(v)));
     let spoke = DVec3::new(start.x, 0.0, start.z);
     let side = DVec3::new(start.z, 0.0, -start.x);
-    const SIDES: usize = 72;
-    let at = |i: usize| {
-        let (sin, cos) = (std::f64::consts::TAU * i as f64 / SIDES as f64).sin_cos();
-        turned(spoke * cos + side * sin)
-    };
     let normal = (turned(DVec3::Y) - axle).as_vec3().to_array();
-    for i in 0..SIDES {
-        for point in [axle, at(i), at(i + 1)] {
-            geometry.plain.push(Vertex { position: camera.local(point), normal, paint: linear(WEB) });
+    // A disc of `share` of the rim's radius, `lift` radii along the axle.
+    let mut disc = |share: f64, lift: f64, colour: [u8; 3]| {
+        const SIDES: usize = 72;
+        let middle = DVec3::Y * (lift * radius(start));
+        let at = |i: usize| {
+            let (sin, cos) = (std::f64::consts::TAU * i as f64 / SIDES as f64).sin_cos();
+            turned(middle + (spoke * cos + side * sin) * share)
+        };
+        for i in 0..SIDES {
+            for point in [turned(middle), at(i), at(i + 1)] {
+                let position = camera.local(point);
+                geometry.plain.push(Vertex { position, normal, paint: linear(colour) });
+            }
         }
-    }
-    let mut line = |from: DVec3, to: DVec3, width: f64| {
-        let [from, to] = [from, to].map(|p| camera.local(p));
-        geometry.segments.push(Segment { from, to, colour: ink(INK, 1.0), width: (width * unit) as f32 });
     };
-    line(axle, turned(spoke), 2.2);
-    for sign in [-1.0, 1.0] {
-        line(axle, turned(spoke * 0.08 * sign), 7.0);
-        line(axle, turned(side * 0.08 * sign), 7.0);
-    }
+    disc(1.0, 0.0, WEB);
+    // The hub, on both faces, over the spoke.
+    disc(0.09, 0.03, INK);
+    disc(0.09, -0.03, INK);
+    let [from, to] = [axle, turned(spoke)].map(|p| camera.local(p));
+    geometry.segments.push(Segment { from, to, colour: ink(INK, 1.0), width: (2.2 * unit) as f32 });
 }

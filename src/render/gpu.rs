@@ -4,12 +4,8 @@ use bytemuck::{Pod, Zeroable};
 use image::RgbaImage;
 use wgpu::util::DeviceExt;
 
+use super::pipeline::{COLOUR, DEPTH, SAMPLES, bind_group_layout, buffer_layout, pipeline};
 use crate::{Error, Result};
-
-const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
-const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Every adapter offers four samples for these two formats.
-const SAMPLES: u32 = 4;
 
 /// A corner of a triangle; `paint` is a linear colour, or (place on the colour bar, 0, 0).
 #[repr(C)]
@@ -78,7 +74,10 @@ impl Gpu {
         let name = adapter.get_info().name;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("pictures"),
-            required_limits: wgpu::Limits::downlevel_defaults().using_resolution(adapter.limits()),
+            required_limits: wgpu::Limits {
+                max_buffer_size: adapter.limits().max_buffer_size,
+                ..wgpu::Limits::downlevel_defaults().using_resolution(adapter.limits())
+            },
             ..Default::default()
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
@@ -125,6 +124,7 @@ impl Gpu {
         map: &[[u8; 4]],
         geometry: &Geometry,
     ) -> Result<RgbaImage> {
+        self.check_memory(geometry)?;
         let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
         let target = |format, samples, usage| {
             self.device.create_texture(&wgpu::TextureDescriptor {
@@ -144,6 +144,19 @@ impl Gpu {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         self.record(&mut encoder, [&samples, &depth, &picture], frame, view, map, geometry);
         self.read(encoder, &picture, size)
+    }
+
+    /// Whether the adapter can hold the geometry; wgpu would end the program over a buffer too large.
+    fn check_memory(&self, geometry: &Geometry) -> Result<()> {
+        let need = size_of_val(&geometry.plain[..])
+            .max(size_of_val(&geometry.mapped[..]))
+            .max(size_of_val(&geometry.segments[..])) as u64;
+        let limit = self.device.limits().max_buffer_size;
+        if need <= limit {
+            return Ok(());
+        }
+        let problem = format!("it needs a buffer of {need} bytes, {} offers {limit}", self.adapter);
+        Err(Error::Picture { problem })
     }
 
     fn record(
@@ -292,96 +305,4 @@ fn any_adapter() -> Result<wgpu::Adapter> {
         ..Default::default()
     }))
     .map_err(|e| Error::NoAdapter { detail: e.to_string() })
-}
-
-fn bind_group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("picture"),
-        entries: &[
-            entry(
-                0,
-                wgpu::ShaderStages::VERTEX_FRAGMENT,
-                wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Uniform,
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-            ),
-            entry(
-                1,
-                wgpu::ShaderStages::FRAGMENT,
-                wgpu::BindingType::Texture {
-                    sample_type: wgpu::TextureSampleType::Float { filterable: true },
-                    view_dimension: wgpu::TextureViewDimension::D2,
-                    multisampled: false,
-                },
-            ),
-            entry(
-                2,
-                wgpu::ShaderStages::FRAGMENT,
-                wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
-            ),
-        ],
-    })
-}
-
-fn buffer_layout<T>(
-    step_mode: wgpu::VertexStepMode,
-    attributes: &[wgpu::VertexAttribute],
-) -> wgpu::VertexBufferLayout<'_> {
-    wgpu::VertexBufferLayout { array_stride: size_of::<T>() as u64, step_mode, attributes }
-}
-
-/// A pipeline of vertex and fragment `entries`; lines (`strip`) are blended and leave the depth alone.
-fn pipeline(
-    device: &wgpu::Device,
-    layout: &wgpu::BindGroupLayout,
-    code: &str,
-    entries: [&str; 2],
-    vertices: wgpu::VertexBufferLayout<'_>,
-    strip: bool,
-) -> wgpu::RenderPipeline {
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(entries[1]),
-        source: wgpu::ShaderSource::Wgsl(code.into()),
-    });
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("picture"),
-        bind_group_layouts: &[Some(layout)],
-        ..Default::default()
-    });
-    let topology =
-        if strip { wgpu::PrimitiveTopology::TriangleStrip } else { wgpu::PrimitiveTopology::TriangleList };
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(entries[1]),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some(entries[0]),
-            compilation_options: Default::default(),
-            buffers: &[Some(vertices)],
-        },
-        primitive: wgpu::PrimitiveState { topology, ..Default::default() },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH,
-            depth_write_enabled: Some(!strip),
-            depth_compare: Some(wgpu::CompareFunction::LessEqual),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: wgpu::MultisampleState { count: SAMPLES, ..Default::default() },
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some(entries[1]),
-            compilation_options: Default::default(),
-            targets: &[Some(wgpu::ColorTargetState {
-                format: COLOUR,
-                blend: strip.then_some(wgpu::BlendState::ALPHA_BLENDING),
-                write_mask: wgpu::ColorWrites::ALL,
-            })],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
 }

@@ -13,6 +13,7 @@ mod field;
 mod footprint;
 mod gpu;
 mod legend;
+mod pipeline;
 mod relief;
 mod road;
 mod scale;

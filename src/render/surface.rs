@@ -73,7 +73,7 @@ pub fn quad(into: &mut Vec<Vertex>, camera: &Camera, corners: [DVec3; 4], paint:
 /// Fine meshes fade instead of turning black.
 pub fn edge_style(pixels: f64, unit: f64) -> (f64, f64) {
     let room = pixels / unit;
-    ((0.05 * room).clamp(0.8, 1.3) * unit, (room / 14.0).clamp(0.0, 1.0) * 0.75)
+    ((0.05 * room).clamp(0.8, 1.3) * unit, (room / 20.0).clamp(0.0, 1.0) * 0.75)
 }
 
 /// Edges as segments.

@@ -1,6 +1,6 @@
 //! Symbols of a footprint: markers of nodes, arrows of shear forces, and what they mean.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use super::camera::Camera;
 use super::canvas::{Anchor, Canvas, Weight};
@@ -68,19 +68,32 @@ impl Symbols {
         }
     }
 
-    /// Draws the shear forces; of a fine mesh one arrow a cell of the picture, so that they do not overlap.
+    /// Draws the shear forces; those of a fine mesh only as far apart as arrows can be told from each other.
     pub fn arrows(&self, canvas: &mut Canvas, camera: &Camera, contact: &Contact) {
-        let mut taken = HashSet::new();
+        let mut drawn: HashMap<[i64; 2], Vec<[f64; 2]>> = HashMap::new();
         for touch in &contact.touches {
             let from = camera.project(touch.x.into());
-            let cell = from.map(|p| (p / self.apart).floor() as i64);
             let reach = [0, 1].map(|d| touch.shear[d] * self.pixels_per_newton);
             // Shorter than three pixels nothing of a direction is left to see.
-            if reach[0].hypot(reach[1]) < 3.0 * canvas.unit || (self.thinned && !taken.insert(cell)) {
+            if reach[0].hypot(reach[1]) < 3.0 * canvas.unit
+                || (self.thinned && !self.has_room(&mut drawn, from))
+            {
                 continue;
             }
             canvas.arrow(from, [0, 1].map(|d| from[d] + reach[d]), self.width, state_colour(touch.slips));
         }
+    }
+
+    /// Whether nothing drawn so far is too near to `at`, which then counts as drawn. `drawn` is kept by cells
+    /// as wide as arrows must be apart, so only the cells around need a look.
+    fn has_room(&self, drawn: &mut HashMap<[i64; 2], Vec<[f64; 2]>>, at: [f64; 2]) -> bool {
+        let cell = at.map(|p| (p / self.apart).floor() as i64);
+        let near = (0..9).filter_map(|i| drawn.get(&[cell[0] + i % 3 - 1, cell[1] + i / 3 - 1])).flatten();
+        let free = near.copied().all(|p| (p[0] - at[0]).hypot(p[1] - at[1]) >= self.apart);
+        if free {
+            drawn.entry(cell).or_default().push(at);
+        }
+        free
     }
 
     /// A reference arrow of a round force; returns where the next legend may start.
