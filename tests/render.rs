@@ -17,7 +17,7 @@ use hexroll::model::mesh::Mesh;
 use hexroll::record::{ContactNode, ContactState, Snapshot};
 use hexroll::render::{
     BodyView, Camera, ColourMap, FootprintColour, FootprintStyle, FootprintView, Projection, Range, Renderer,
-    View,
+    Scale, View,
 };
 use hexroll::scene::{Field, MeshSpec};
 use image::RgbaImage;
@@ -26,7 +26,7 @@ use libtest_mimic::{Arguments, Failed, Trial};
 
 type Check = fn(&mut Renderer);
 
-const CHECKS: [(&str, Check); 11] = [
+const CHECKS: [(&str, Check); 12] = [
     ("a_picture_has_the_size_asked_for", size),
     ("the_silhouette_is_where_the_camera_says", silhouette),
     ("a_view_shows_the_axes_it_names", views),
@@ -35,6 +35,7 @@ const CHECKS: [(&str, Check); 11] = [
     ("fields_and_views_give_different_pictures", differences),
     ("a_picture_drawn_again_is_the_same_to_the_byte", determinism),
     ("a_footprint_colours_the_nodes_by_normal_force", footprint_colours),
+    ("slipping_nodes_are_told_from_sticking_ones", slip_symbols),
     ("nothing_in_contact_is_drawn_too", no_contact),
     ("any_scale_gives_the_same_picture", any_scale),
     ("data_that_do_not_fit_are_errors", errors),
@@ -60,6 +61,11 @@ fn main() {
         Trial::test(name, run).with_ignored_flag(missing)
     };
     let mut trials: Vec<Trial> = CHECKS.iter().map(|(name, check)| trial(name, *check)).collect();
+    // Needs no adapter.
+    trials.push(Trial::test("ticks_are_round_and_carry_si_prefixes", || {
+        ticks();
+        Ok(())
+    }));
     if std::env::var_os("HEXROLL_TEST_PICTURES").is_some() {
         trials.push(trial("gallery", gallery::gallery));
     }
@@ -315,6 +321,62 @@ fn footprint_colours(renderer: &mut Renderer) {
                 assert!(count(&picture, expected) > 50, "{colour:?} {top}: no {expected:?}");
             }
         }
+    }
+}
+
+/// The slip colour stands in the plot exactly when a node slips, in both styles.
+fn slip_symbols(renderer: &mut Renderer) {
+    const VERMILION: [u8; 3] = [213, 94, 0];
+    let mesh = wheel(1.0);
+    let mut snapshot = rolling(&mesh, 1.0);
+    let slipping = |picture: &RgbaImage| {
+        let pixels = picture.pixels().map(|p| [p.0[0], p.0[1], p.0[2]]);
+        // Hue survives the shading of the arrows in space: red to green stands as in the colour.
+        pixels
+            .filter(|p| p[2] < 20 && p[0] > 120 && (p[0] as f64 * 94.0 / 213.0 - p[1] as f64).abs() < 12.0)
+            .count()
+    };
+    for style in [FootprintStyle::Flat, FootprintStyle::Arrows { view: View::Iso }] {
+        let view = FootprintView { style, map: ColourMap::Viridis, ..FootprintView::default() };
+        let with = slipping(&renderer.footprint(&mesh, &snapshot, &view).unwrap());
+        let states: Vec<ContactState> = snapshot.contact.iter().map(|c| c.state).collect();
+        for contact in snapshot.contact.iter_mut().filter(|c| c.state == ContactState::Slip) {
+            contact.state = ContactState::Stick;
+        }
+        let without = slipping(&renderer.footprint(&mesh, &snapshot, &view).unwrap());
+        assert!(with > 300 && without == 0, "{style:?}: {with} and {without} pixels of {VERMILION:?}");
+        for (contact, state) in snapshot.contact.iter_mut().zip(states) {
+            contact.state = state;
+        }
+    }
+}
+
+fn ticks() {
+    let labels = |values: &[f64], unit, range, from_zero| {
+        let scale = Scale::new(values, unit, range, from_zero);
+        (scale.ticks.iter().map(|t| t.1.clone()).collect::<Vec<_>>().join(" "), scale.unit, scale.beyond)
+    };
+    let auto = Range::Auto;
+    let cases = [
+        (vec![0.13e6, 2.6e6], "Pa", auto, true, "0.0 0.5 1.0 1.5 2.0 2.5 3.0", "MPa"),
+        (
+            vec![-0.13e6, 0.2e6],
+            "Pa",
+            auto,
+            false,
+            "\u{2212}150 \u{2212}100 \u{2212}50 0 50 100 150 200",
+            "kPa",
+        ),
+        (vec![0.0, 2.2e-3], "m", auto, true, "0.0 0.5 1.0 1.5 2.0 2.5", "mm"),
+        (vec![0.9881, 1.0003], "", auto, false, "0.988 0.990 0.992 0.994 0.996 0.998 1.000 1.002", ""),
+        (vec![3.0, f64::NAN], "N", Range::Fixed(0.0, 2.0), true, "0.0 0.5 1.0 1.5 2.0", "N"),
+        (vec![5.0; 9], "m/s", auto, false, "4.94 4.96 4.98 5.00 5.02 5.04 5.06", "m/s"),
+        (vec![], "N", auto, true, "0.0 0.2 0.4 0.6 0.8 1.0", "N"),
+    ];
+    for (values, unit, range, from_zero, expected, prefixed) in cases {
+        let (labels, got, beyond) = labels(&values, unit, range, from_zero);
+        assert_eq!((labels.as_str(), got.as_str()), (expected, prefixed), "{values:?} {unit}");
+        assert_eq!(beyond, [false, range != auto], "{values:?} lie beyond the ends");
     }
 }
 

@@ -24,7 +24,7 @@ pub use body::BodyView;
 pub use camera::{Camera, Projection, View};
 pub use colour::ColourMap;
 pub use footprint::{FootprintColour, FootprintStyle, FootprintView};
-pub use scale::Range;
+pub use scale::{Range, Scale};
 
 use crate::{Error, Result};
 

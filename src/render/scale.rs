@@ -37,7 +37,7 @@ impl Scale {
             Range::Auto => (if from_zero { lowest.min(0.0) } else { lowest }, highest),
         };
         let (mut low, mut high) = apart(low, high);
-        let step = round_step(high - low, 6);
+        let step = round_step(high - low, 7);
         if range == Range::Auto {
             (low, high) = ((low / step + 1e-9).floor() * step, (high / step - 1e-9).ceil() * step);
         }
