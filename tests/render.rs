@@ -170,11 +170,17 @@ fn element_colour(renderer: &mut Renderer) {
         for value in [0.25, 0.5, 1.0] {
             let mut snapshot = at_rest(&mesh);
             let (facet, element) = side_facet(&mesh);
-            snapshot.pressure.fill(0.0);
-            snapshot.volume_ratio.fill(0.0);
+            // The other fields are hot elsewhere: only the one asked for may show.
             for values in [&mut snapshot.pressure, &mut snapshot.von_mises, &mut snapshot.volume_ratio] {
-                values[element] = value;
+                values.fill(0.7);
             }
+            let values = match field {
+                Field::Pressure => &mut snapshot.pressure,
+                Field::VonMises => &mut snapshot.von_mises,
+                _ => &mut snapshot.volume_ratio,
+            };
+            values.fill(0.0);
+            values[element] = value;
             let options = BodyView {
                 field,
                 map,
