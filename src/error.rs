@@ -52,6 +52,10 @@ pub enum Error {
     )]
     TooLarge { what: String, need: u64, limit: u64, adapter: String, fits: u64 },
 
+    /// A picture that cannot be drawn from the data given.
+    #[error("cannot draw the picture: {problem}")]
+    Picture { problem: String },
+
     /// The adapter went away or refused a request.
     #[error("GPU adapter {adapter}: {detail}")]
     Device { adapter: String, detail: String },
@@ -77,7 +81,7 @@ impl Error {
             Error::Unsupported { .. } => 3,
             Error::NoAdapter { .. } | Error::TooLarge { .. } | Error::Device { .. } => 4,
             Error::Inverted { .. } | Error::NotFinite { .. } | Error::NotSettled { .. } => 5,
-            Error::Io { .. } | Error::Format { .. } => 6,
+            Error::Io { .. } | Error::Format { .. } | Error::Picture { .. } => 6,
             Error::Interrupted { .. } => 130,
         }
     }

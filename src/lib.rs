@@ -2,6 +2,7 @@
 //!
 //! Everything flows one way; see `ARCHITECTURE.md`.
 #![allow(non_snake_case)] // F, J, W, N: the field's own symbols
+#![allow(rustdoc::broken_intra_doc_links)] // units are written [m], [N s]
 
 pub mod cpu;
 pub mod engine;
@@ -9,6 +10,7 @@ pub mod error;
 pub mod model;
 pub mod physics;
 pub mod record;
+pub mod render;
 pub mod run;
 pub mod scene;
 

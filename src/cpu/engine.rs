@@ -5,14 +5,14 @@ use super::rim::{Reaction, RimState};
 use super::team::{Shared, SpinBarrier, share};
 use crate::engine::{Engine, EngineInfo, Probe, StageSetup, State, Step, SurfaceSum, Window};
 use crate::error::{Error, Result};
-use crate::model::Model;
+use crate::model::{Model, frame};
 use crate::physics::element::Corners;
 use crate::physics::friction::Coulomb;
 use crate::physics::node::{Loads, StepSize};
 use crate::physics::rim::{self, Coordinates};
 use crate::physics::road::Plane;
 use crate::physics::scalar::Real;
-use crate::physics::tensor::{Vec3, vec3};
+use crate::physics::tensor::{Vec3, sub, vec3};
 use crate::scene::{Friction, Road, Scene};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -29,6 +29,7 @@ pub struct CpuEngine<S> {
     threads: usize,
     /// Origin of the engine's frame: positions are kept relative to it.
     frame: [f64; 3],
+    grain: f64,
     x: Vec<Vec3<S>>,
     v: Vec<Vec3<S>>,
     slots: Vec<Corners<S>>,
@@ -49,6 +50,8 @@ impl<S: Real> CpuEngine<S> {
             n => n,
         };
         let mesh = &model.mesh;
+        let grain = frame::grain(mesh);
+        let frame = frame::shift(grain, mesh.axle, [0.0; 3], scene.road.as_ref());
         let roles = roles(model, scene.road.is_some());
         let surface_nodes = if scene.road.is_some() { mesh.surface.clone() } else { Vec::new() };
         let rim_arms: Vec<[f64; 3]> = mesh
@@ -76,8 +79,9 @@ impl<S: Real> CpuEngine<S> {
             gravity: vec3(scene.gravity),
             setup: StageSetup::default(),
             threads,
-            frame: [0.0; 3],
-            x: mesh.nodes.iter().map(|&x| vec3(x)).collect(),
+            frame,
+            grain,
+            x: mesh.nodes.iter().map(|x| vec3(std::array::from_fn(|d| x[d] - frame[d]))).collect(),
             v: vec![[S::zero(); 3]; mesh.nodes.len()],
             slots: vec![[[S::zero(); 3]; 8]; mesh.hexes.len()],
             power: vec![0.0; mesh.hexes.len().div_ceil(elements::CHUNK)],
@@ -110,32 +114,21 @@ impl<S: Real> CpuEngine<S> {
         }
     }
 
-    /// Moves the frame after the axle, by whole powers of two so that no digit of a position is lost, when single
-    /// precision would otherwise run out of them. The road's offset must not change: only where its normal is an axis.
+    /// Lets the frame follow the axle, when single precision would otherwise run out of digits.
     fn follow(&mut self) {
-        let axis_normal = match self.road {
-            Some(Road::Plane { normal, .. }) => normal.iter().filter(|n| **n != 0.0).count() == 1,
-            None => true,
-        };
-        if S::EPSILON < 1e-10 || self.nodes.rim_arms.is_empty() || !axis_normal {
+        if S::EPSILON < 1e-10 || self.nodes.rim_arms.is_empty() {
             return;
         }
-        let reach = self.nodes.rim_arms.iter().flatten().fold(0.0f64, |m, a| m.max(a.abs()));
-        let grain = 2.0f64.powi(reach.log2().floor() as i32);
-        let along = |d: usize| match self.road {
-            Some(Road::Plane { normal, .. }) => normal[d] == 0.0,
-            None => true,
-        };
-        for d in 0..3 {
-            let shift = ((self.rim.q[d] - self.frame[d]) / grain).round() * grain;
-            if shift == 0.0 || !along(d) {
-                continue;
-            }
-            self.frame[d] += shift;
-            for x in &mut self.x {
-                x[d] = x[d] - S::from_f64(shift);
-            }
+        let axle = [self.rim.q[0], self.rim.q[1], self.rim.q[2]];
+        let shift = frame::shift(self.grain, axle, self.frame, self.road.as_ref());
+        if shift == [0.0; 3] {
+            return;
         }
+        for d in 0..3 {
+            self.frame[d] += shift[d];
+        }
+        let shift = vec3::<S>(shift);
+        self.x.iter_mut().for_each(|x| *x = sub(*x, shift));
     }
 
     fn absolute(&self, x: Vec3<S>) -> [f64; 3] {

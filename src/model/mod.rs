@@ -1,6 +1,7 @@
 //! SI, f64 description of the discrete body: mesh, mass, shape classes, who gathers from whom.
 
 mod classes;
+pub mod frame;
 pub mod mesh;
 
 use crate::error::{Error, Result};

@@ -1,0 +1,13 @@
+// With the road if the force that needs is within the cone, else slowed by mu fN.
+fn rub(x: vec3f, n: vec3f, push: f32, per_step: f32, pressed: vec3f) -> Rubbed {
+    let surface = road_velocity(x);
+    let relative = pressed - surface;
+    let normal_speed = dot(relative, n);
+    let slip = relative - normal_speed * n;
+    let speed = sqrt(dot(slip, slip));
+    let most = friction_coefficient(per_step * push, speed) * push;
+    if speed <= most {
+        return Rubbed(surface + normal_speed * n, 2u);
+    }
+    return Rubbed(pressed - (most / speed) * slip, 1u);
+}

@@ -1,0 +1,3 @@
+fn damping_work(mass: f32, before: vec3f, after: vec3f, way: vec3f) -> f32 {
+    return dot(damping_force(mass, before, after), way);
+}

@@ -1,0 +1,16 @@
+// Internal force of every node, for reading back.
+
+@group(0) @binding(9) var<storage, read_write> forces: array<vec4f>;
+
+@compute @workgroup_size(64)
+fn main(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let n = thread_index(group, groups, lane);
+    if n >= arrayLength(&forces) {
+        return;
+    }
+    forces[n] = vec4f(gather(n), 0.0);
+}

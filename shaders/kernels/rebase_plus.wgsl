@@ -1,0 +1,21 @@
+// Moves the origin of the frame of hi + lo positions.
+
+@group(0) @binding(5) var<uniform> shift: Shift;
+@group(0) @binding(10) var<storage, read_write> positions: array<vec4f>;
+@group(0) @binding(12) var<storage, read_write> positions_lo: array<vec4f>;
+
+@compute @workgroup_size(64)
+fn main(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let n = thread_index(group, groups, lane);
+    if n >= arrayLength(&positions) {
+        return;
+    }
+    let moved = two_sum(positions[n].xyz, -shift.by.xyz);
+    let sum = two_sum(moved.hi, moved.lo + positions_lo[n].xyz);
+    positions[n] = vec4f(sum.hi, 0.0);
+    positions_lo[n] = vec4f(sum.lo, 0.0);
+}

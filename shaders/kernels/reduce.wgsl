@@ -1,0 +1,38 @@
+// Sums of records of `width` vec4f, in fixed order: group g of column k adds its share into partials[k * groups + g].
+// With least_w the fourth component is a minimum instead.
+
+override width: u32;
+override least_w: bool;
+
+@group(0) @binding(0) var<storage, read> records: array<vec4f>;
+@group(0) @binding(1) var<storage, read_write> partials: array<vec4f>;
+
+var<workgroup> shared_sums: array<vec4f, 64>;
+
+fn combine(a: vec4f, b: vec4f) -> vec4f {
+    return vec4f(a.xyz + b.xyz, select(a.w + b.w, min(a.w, b.w), least_w));
+}
+
+@compute @workgroup_size(64)
+fn main(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let count = arrayLength(&records) / width;
+    var sum = vec4f(0.0, 0.0, 0.0, select(0.0, 3.0e38, least_w));
+    for (var i = group.x * 64u + lane; i < count; i += groups.x * 64u) {
+        sum = combine(sum, records[i * width + group.y]);
+    }
+    shared_sums[lane] = sum;
+    workgroupBarrier();
+    for (var half = 32u; half > 0u; half /= 2u) {
+        if lane < half {
+            shared_sums[lane] = combine(shared_sums[lane], shared_sums[lane + half]);
+        }
+        workgroupBarrier();
+    }
+    if lane == 0u {
+        partials[group.y * groups.x + group.x] = shared_sums[0];
+    }
+}

@@ -1,0 +1,18 @@
+// Positions and velocities of the surface nodes, packed for reading back.
+
+@group(0) @binding(0) var<storage, read> surface_nodes: array<u32>;
+@group(0) @binding(3) var<storage, read_write> surface_states: array<vec4f>;
+
+@compute @workgroup_size(64)
+fn main(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let k = thread_index(group, groups, lane);
+    if k >= arrayLength(&surface_nodes) {
+        return;
+    }
+    surface_states[2u * k] = vec4f(load_position(surface_nodes[k]), 0.0);
+    surface_states[2u * k + 1u] = velocities_now[surface_nodes[k]];
+}

@@ -1,0 +1,1 @@
+fn book_viscous(element: u32, result: ElementForce) {}

@@ -1,0 +1,188 @@
+//! Programs by concatenation: kernel + element + material + whatever the scene uses, never more.
+//!
+//! Module scope ignores order in WGSL, so the parts are simply joined; naga then drops what the entry point does not
+//! reach, and what is left is exactly what runs.
+
+use super::layout;
+use crate::error::{Error, Result};
+use crate::scene::{Element, Law};
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+macro_rules! shaders {
+    ($($name:literal),* $(,)?) => {
+        /// Every part, by path without its ending.
+        const PARTS: &[(&str, &str)] = &[$(($name, include_str!(concat!("../../shaders/", $name, ".wgsl")))),*];
+    };
+}
+shaders!(
+    "contact/book", "contact/book_none", "contact/friction", "contact/frictionless", "contact/landing",
+    "contact/landing_none", "contact/none", "contact/project",
+    "damping/book", "damping/book_none", "damping/mass", "damping/none",
+    "element/full", "element/q1p0", "element/uniform_gradient",
+    "friction/coulomb",
+    "kernels/element_energy", "kernels/element_force", "kernels/gather", "kernels/node", "kernels/node_probe",
+    "kernels/rebase", "kernels/rebase_plus", "kernels/reduce", "kernels/rim", "kernels/surface_state",
+    "lib/elements", "lib/gravity", "lib/gravity_none", "lib/hex8", "lib/index", "lib/invariants_i1",
+    "lib/invariants_i2", "lib/mean_elastic", "lib/mean_viscous", "lib/move_node", "lib/nodes", "lib/points",
+    "lib/points_elastic", "lib/points_viscous", "lib/recip_cbrt", "lib/two_sum",
+    "material/mooney_rivlin", "material/mooney_rivlin_eq4", "material/neo_hookean",
+    "position/f32", "position/f32_plus", "position/now_f32", "position/now_f32_plus", "position/store_f32",
+    "position/store_f32_plus",
+    "rim/book", "rim/book_none", "rim/carried", "rim/free", "rim/none", "rim/prescribed",
+    "road/plane", "road/velocity",
+    "viscosity/book", "viscosity/book_none", "viscosity/kelvin_voigt",
+);
+
+/// Entry points, one a file of `shaders/kernels`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Kernel {
+    ElementForce,
+    ElementEnergy,
+    Node,
+    NodeProbe,
+    Rim,
+    SurfaceState,
+    Gather,
+    Reduce,
+    Rebase,
+}
+
+/// How the rim moves in a stage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RimKind {
+    None,
+    Prescribed,
+    Free,
+}
+
+/// Everything that decides which code a scene needs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Choice {
+    pub element: Element,
+    pub law: Law,
+    pub viscous: bool,
+    pub road: bool,
+    pub friction: bool,
+    pub gravity: bool,
+    pub damping: bool,
+    pub rim: RimKind,
+    /// Positions as hi + lo pairs.
+    pub plus: bool,
+}
+
+impl Choice {
+    /// Parts of a kernel, in reading order.
+    pub fn parts(&self, kernel: Kernel) -> Vec<&'static str> {
+        match kernel {
+            Kernel::ElementForce => [self.element_parts(), self.force_parts()].concat(),
+            Kernel::ElementEnergy => [vec!["kernels/element_energy"], self.element_parts()].concat(),
+            Kernel::Node => [vec!["kernels/node"], self.node_parts(), self.booking_parts()].concat(),
+            Kernel::NodeProbe => [vec!["kernels/node_probe", self.now()], self.node_parts(), vec![self.damping_book()]].concat(),
+            Kernel::Rim => vec!["kernels/rim", "lib/nodes", self.now(), self.gravity_part()],
+            Kernel::SurfaceState => vec!["kernels/surface_state", "lib/index", self.now()],
+            Kernel::Gather => vec!["kernels/gather", "lib/index", "lib/nodes"],
+            Kernel::Reduce => vec!["kernels/reduce"],
+            Kernel::Rebase if self.plus => vec!["kernels/rebase_plus", "lib/index", "lib/two_sum"],
+            Kernel::Rebase => vec!["kernels/rebase", "lib/index"],
+        }
+    }
+
+    fn element_parts(&self) -> Vec<&'static str> {
+        let (material, invariants) = match self.law {
+            Law::NeoHookean { .. } => ("material/neo_hookean", "lib/invariants_i1"),
+            Law::MooneyRivlin { .. } => ("material/mooney_rivlin", "lib/invariants_i2"),
+            Law::MooneyRivlinEq4 { .. } => ("material/mooney_rivlin_eq4", "lib/invariants_i2"),
+        };
+        let position = if self.plus { "position/f32_plus" } else { "position/f32" };
+        let element = match self.element {
+            Element::Q1p0 => vec!["element/q1p0", "lib/points"],
+            Element::Full => vec!["element/full", "lib/points"],
+            Element::UniformGradient { .. } => vec!["element/uniform_gradient"],
+        };
+        let common = ["lib/elements", "lib/hex8", "lib/index", "lib/recip_cbrt", position, material, invariants];
+        [element, common.to_vec()].concat()
+    }
+
+    fn force_parts(&self) -> Vec<&'static str> {
+        let mean = matches!(self.element, Element::UniformGradient { .. });
+        let mut parts = vec!["kernels/element_force"];
+        parts.extend(match (mean, self.viscous) {
+            (false, false) => vec!["lib/points_elastic", "viscosity/book_none"],
+            (false, true) => vec!["lib/points_viscous", "viscosity/kelvin_voigt", "viscosity/book"],
+            (true, false) => vec!["lib/mean_elastic", "viscosity/book_none"],
+            (true, true) => vec!["lib/mean_viscous", "viscosity/kelvin_voigt", "viscosity/book"],
+        });
+        parts
+    }
+
+    fn node_parts(&self) -> Vec<&'static str> {
+        let mut parts = vec!["lib/nodes", "lib/index", "lib/move_node", self.gravity_part()];
+        parts.push(if self.damping { "damping/mass" } else { "damping/none" });
+        parts.extend(match self.rim {
+            RimKind::None => vec!["rim/none"],
+            RimKind::Prescribed => vec!["rim/carried", "rim/prescribed"],
+            RimKind::Free => vec!["rim/carried", "rim/free"],
+        });
+        parts.extend(match (self.road, self.friction) {
+            (false, _) => vec!["contact/none"],
+            (true, false) => vec!["contact/project", "contact/frictionless", "road/plane"],
+            (true, true) => {
+                vec!["contact/project", "contact/friction", "friction/coulomb", "road/plane", "road/velocity"]
+            }
+        });
+        parts
+    }
+
+    fn booking_parts(&self) -> Vec<&'static str> {
+        let mut parts = vec![
+            self.damping_book(),
+            if self.rim == RimKind::None { "rim/book_none" } else { "rim/book" },
+            if self.road { "contact/book" } else { "contact/book_none" },
+        ];
+        parts.extend(match (self.plus, self.road) {
+            (false, _) => vec!["position/store_f32"],
+            (true, false) => vec!["position/store_f32_plus", "lib/two_sum", "contact/landing_none"],
+            (true, true) => vec!["position/store_f32_plus", "lib/two_sum", "contact/landing"],
+        });
+        parts
+    }
+
+    fn now(&self) -> &'static str {
+        if self.plus { "position/now_f32_plus" } else { "position/now_f32" }
+    }
+
+    fn damping_book(&self) -> &'static str {
+        if self.damping { "damping/book" } else { "damping/book_none" }
+    }
+
+    fn gravity_part(&self) -> &'static str {
+        if self.gravity { "lib/gravity" } else { "lib/gravity_none" }
+    }
+
+    /// WGSL of a kernel: shared structs and parts, joined.
+    pub fn text(&self, kernel: Kernel) -> String {
+        let mut text: String = layout::all().iter().map(|s| s.text.as_str()).collect();
+        text += match self.element {
+            Element::UniformGradient { .. } => "alias Class = MeanClass;\n",
+            Element::Q1p0 | Element::Full => "alias Class = PointClass;\n",
+        };
+        for part in self.parts(kernel) {
+            let (_, source) = PARTS.iter().find(|(name, _)| *name == part).expect("every part is listed in PARTS");
+            text += source;
+        }
+        text
+    }
+
+    /// The composed module, reduced to what its entry point reaches, and valid.
+    pub fn module(&self, kernel: Kernel) -> Result<naga::Module> {
+        let text = self.text(kernel);
+        let wrong = |detail: String| Error::Device { adapter: "shader composition".into(), detail };
+        let mut module = naga::front::wgsl::parse_str(&text)
+            .map_err(|e| wrong(format!("{kernel:?}: {}", e.emit_to_string(&text))))?;
+        naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
+        Validator::new(ValidationFlags::all(), Capabilities::default())
+            .validate(&module)
+            .map_err(|e| wrong(format!("{kernel:?}: {e:?}")))?;
+        Ok(module)
+    }
+}
