@@ -193,6 +193,11 @@ impl<'a> Table<'a> {
         self.get(key).ok_or_else(|| self.at(key).error("missing", format!("add {key} = {example}")))
     }
 
+    /// A section that must be there, as its header is written.
+    pub fn section(&self, key: &str, header: &str) -> Result<Item<'a>> {
+        self.get(key).ok_or_else(|| self.at(key).error("missing", format!("add a section {header}")))
+    }
+
     /// A required quantity in SI.
     pub fn quantity(&self, key: &str, dimension: &Dimension, bound: Bound) -> Result<f64> {
         self.need(key, &format!("\"{}\"", dimension.example))?.quantity(dimension, bound)

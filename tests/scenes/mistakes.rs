@@ -97,7 +97,16 @@ fn what_is_missing_is_asked_for_at_its_table() {
         ),
         (ROLL, ("method = \"explicit\"\n", "", "stage.1.method", "missing", "\"explicit\"")),
         (ROLL, ("duration = \"50 ms\"\n", "", "stage.1.duration", "missing", "add duration = \"20 ms\"")),
-        (PRESS, ("mass_damping = \"3000 1/s\"\n", "", "stage.0.mass_damping", "missing", "\"3000 1/s\"")),
+        (
+            PRESS,
+            (
+                "mass_damping = \"3000 1/s\"\n",
+                "",
+                "stage.0.mass_damping",
+                "missing",
+                "add mass_damping = \"3000 1/s\"",
+            ),
+        ),
         ("[output]", ("sample = \"1 ms\"\n", "", "output.sample", "missing", "add sample = ")),
         ("z = { force", (", mass = \"50 g\"", "", "stage.1.rim.z.mass", "missing", "add mass = \"50 g\"")),
         ("z = { disp", (", ramp = \"20 ms\"", "", "stage.0.rim.z.ramp", "missing", "add ramp = \"20 ms\"")),
@@ -108,8 +117,10 @@ fn what_is_missing_is_asked_for_at_its_table() {
         let cut: Vec<_> =
             GOOD.split("\n\n").filter(|p| !p.trim_start_matches('[').starts_with(section)).collect();
         let shown = Scene::parse(&cut.join("\n\n"), "bad.toml", &[]).unwrap_err().to_string();
-        assert!(shown.starts_with(&format!("bad.toml:1: {section}: missing; add")), "{shown}");
-        assert!(shown.contains(advised), "{shown}");
+        assert!(
+            shown.starts_with(&format!("bad.toml:1: {section}: missing; add a section {advised}")),
+            "{shown}"
+        );
     }
 }
 
@@ -457,4 +468,20 @@ fn what_comes_later_is_called_unavailable_not_unknown() {
     let shown = Scene::parse(&text, "bad.toml", &[]).unwrap_err().to_string();
     let line = line_of("shape =");
     assert!(shown.starts_with(&format!("bad.toml:{line}: road.shape")), "{shown}");
+}
+
+#[test]
+fn a_block_has_faces_but_no_inner_cylinder() {
+    let block = r#"body.mesh={ generator = "block", size = ["1 m", "1 m", "1 m"], elements = [1, 1, 1] }"#;
+    let shown = good(&[block]).unwrap_err().to_string();
+    let line = line_of("nodes =");
+    let right = "known here: x-min, x-max, y-min, y-max, z-min, z-max";
+    assert_eq!(shown, format!("good.toml:{line}: rim.nodes: \"inner\" is not known here; {right}"));
+    assert!(good(&[block, "rim.nodes=y-max"]).is_ok());
+    let flat = block.replace("\"1 m\"]", "\"0 m\"]");
+    let shown = good(&[&flat]).unwrap_err().to_string();
+    assert!(
+        shown.starts_with("good.toml: body.mesh.size.2: \"0 m\" is not positive (from --set)"),
+        "{shown}"
+    );
 }

@@ -19,9 +19,9 @@ const LATER_GENERATORS: [Later; 3] = [
 pub(super) fn body(item: &Item) -> Result<Body> {
     let table = item.table()?;
     table.only(&KEYS, &[])?;
-    let (law, viscosity) = material(&table.need("material", "a section [body.material]")?.table()?)?;
+    let (law, viscosity) = material(&table.section("material", "[body.material]")?.table()?)?;
     Ok(Body {
-        mesh: mesh(&table.need("mesh", "a section [body.mesh]")?.table()?)?,
+        mesh: mesh(&table.section("mesh", "[body.mesh]")?.table()?)?,
         offset: table.vector_or_zero("offset", &LENGTH)?,
         density: table.quantity("density", &DENSITY, Bound::Positive)?,
         law,

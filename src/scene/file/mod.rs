@@ -150,12 +150,12 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
     let table = Item { file, key: String::new(), node: root }.table()?;
     table.only(&SECTIONS, &LATER)?;
     let text = |key| table.get(key).map_or(Ok(String::new()), |item| item.text().map(Into::into));
-    let body = body::body(&table.need("body", "a section [body]")?)?;
+    let body = body::body(&table.section("body", "[body]")?)?;
     let rim = table.get("rim").map(|item| world::rim(&item, &body.mesh)).transpose()?;
     let road = table.get("road").map(|item| world::road(&item)).transpose()?;
     let friction = table.get("friction").map(|item| world::friction(&item, road.is_some())).transpose()?;
-    let stages = stage::stages(&table.need("stage", "one or more sections [[stage]]")?, rim.is_some())?;
-    let output = output::output(&table.need("output", "a section [output]")?, &stages, road.is_some())?;
+    let stages = stage::stages(&table.section("stage", "[[stage]]")?, rim.is_some())?;
+    let output = output::output(&table.section("output", "[output]")?, &stages, road.is_some())?;
     Ok(Scene {
         file: file.into(),
         hash: hash(&document::canonical(root)),

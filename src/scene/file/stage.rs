@@ -60,9 +60,10 @@ fn method(stage: &Table) -> Result<(Method, f64)> {
         };
     }
     if alpha == 0.0 {
-        let remedy = "mass_damping = \"3000 1/s\" (about twice the lowest angular frequency settles fastest)";
-        let item = stage.need("mass_damping", remedy)?;
-        return Err(item.error("without damping nothing settles", format!("write {remedy}")));
+        // About twice the lowest angular frequency settles fastest.
+        let example = "\"3000 1/s\"";
+        let item = stage.need("mass_damping", example)?;
+        return Err(item.error("without damping nothing settles", format!("write a rate such as {example}")));
     }
     let (mut kinetic_ratio, mut residual) = (1e-8, 1e-4);
     if let Some(table) = settle.map(|item| item.table()).transpose()? {
