@@ -1,7 +1,13 @@
 //! What a scene says: plain SI numbers and choices, nothing about meshes, buffers or devices.
 //!
 //! [`Scene`] is what the rest of the program reads. How it looks in a file (TOML, quantities with
-//! units) is [`file`](self)'s business; every value here has been checked.
+//! units) is [`file`](mod@file)'s business; every value here has been checked.
+
+mod document;
+pub mod file;
+mod overrides;
+mod reader;
+mod units;
 
 use std::path::PathBuf;
 

@@ -1,0 +1,183 @@
+//! Scene files: TOML in, a checked [`Scene`] in SI out.
+//!
+//! A quantity is a string with its unit (`"39 mm"`, `"2.64 MPa"`); a number without a unit, or with the unit of
+//! something else, is an error, as is every unknown key. Arrays of three are x, y, z. Keys without a default are
+//! required.
+//!
+//! ```toml
+//! title = "what it is"                # one line
+//! source = "where the case is from"   # default ""
+//! expected = "what should come out"   # default ""
+//! gravity = ["0 m/s2", "0 m/s2", "-9.81 m/s2"]   # body force per mass; default none
+//!
+//! [body]
+//! density = "1100 kg/m3"              # in the reference shape, > 0
+//! element = "q1p0"                    # default | "full" | "uniform-gradient"
+//! hourglass = 0.15                    # default; hourglass stiffness over G, > 0; only with "uniform-gradient"
+//! offset = ["0 mm", "0 mm", "0 mm"]   # moves the mesh before the start; default none
+//! velocity = ["0 m/s", "0 m/s", "0 m/s"]                  # of every node at t = 0; default none
+//! angular_velocity = ["0 rad/s", "0 rad/s", "0 rad/s"]    # at t = 0, about the centroid; default none
+//!
+//! [body.mesh]
+//! generator = "ring"                  # axle along y, touches z = 0 with a row of nodes
+//! outer_radius = "39 mm"
+//! inner_radius = "17 mm"
+//! width = "17.5 mm"
+//! elements = [44, 4, 5]               # circumference (>= 3), radius, width
+//! # or
+//! generator = "block"                 # a corner at the origin, edges along +x, +y, +z
+//! size = ["40 mm", "40 mm", "20 mm"]
+//! elements = [8, 8, 4]                # along x, y, z
+//!
+//! [body.material]
+//! law = "mooney-rivlin"               # default | "neo-hookean" (g2 = 0) | "mooney-rivlin-eq4"
+//! shear_modulus = "2.64 MPa"          # G > 0, with
+//! bulk_modulus = "65.1 MPa"           # kappa > 0; or instead the law's own constants:
+//! g0 = "65.1 MPa"                     #   kappa = g0 (eq4: g0 + 2/3 G)
+//! g1 = "2.64 MPa"                     #   G = g1 + g2
+//! g2 = "0 MPa"                        #   default 0
+//! viscosity = "20 Pa s"               # Kelvin-Voigt shear viscosity, >= 0; default 0: none
+//!
+//! [rim]                               # optional: these nodes are one rigid body
+//! nodes = "inner"                     # of a ring; of a block "x-min", "x-max", "y-min", ... "z-max"
+//!
+//! [road]                              # optional: rigid, the body stays on the side of the normal
+//! shape = "plane"                     # default
+//! point = ["0 m", "0 m", "0 m"]       # default the origin
+//! normal = [0, 0, 1]                  # default +z; any length but zero
+//! velocity = ["0 m/s", "0 m/s", "0 m/s"]   # in the plane; default at rest
+//!
+//! [friction]                          # optional, needs a road; constant over the scene
+//! law = "coulomb"                     # default
+//! coefficient = 1.0                   # mu >= 0; 0: frictionless
+//!
+//! [time_step]
+//! safety = 0.9                        # default; fraction of the critical step, > 0 (above 1: unstable)
+//!
+//! [[stage]]                           # one or more, one after the other
+//! name = "press"                      # default "stage 1", ...
+//! method = "quasi-static"             # mass-damped relaxation | "explicit"
+//! duration = "0.2 s"                  # > 0; the longest a quasi-static stage may take
+//! mass_damping = "3000 1/s"           # Rayleigh alpha >= 0; default 0: none; needed by "quasi-static"
+//! initial_velocity = "rim"            # optional: every node starts with the rim's rigid motion | "zero"
+//! settle = { kinetic_ratio = 1e-8, residual = 1e-4 }   # defaults; only "quasi-static": kinetic over strain
+//!                                     # energy, and out-of-balance force over the largest force
+//!
+//! [stage.rim]                         # needs [rim]; a component that is not named holds where it is
+//! x = { displacement = "1 mm", ramp = "20 ms" }   # from the start of the simulation; smooth ramp
+//! y = { velocity = "2.59 m/s", ramp = "5 ms" }    # ramp default 0: from the first step on
+//! z = { force = "-300 N", mass = "50 g", ramp = "20 ms" }  # free, with the rim's own mass > 0; ramp default 0
+//! steer = { angle = "5 deg", ramp = "20 ms" }     # about z; or { velocity = "1 rad/s", ramp = .. }
+//! camber = { angle = "2 deg", ramp = "20 ms" }    # about the new x; the same
+//! spin = { velocity = "70 rad/s" }                # about the axle; or angle; or free:
+//! spin = { moment = "0 N m", inertia = "1e-5 kg m2", ramp = "0 s" }
+//!
+//! [output]
+//! sample = "1 ms"                     # length of a history window, > 0, no longer than any stage
+//! snapshots = "10 ms"                 # whole fields: default "stage-ends" | "none" | every so long
+//! pictures = ["body:von-mises", "footprint"]   # of every snapshot; default none; body: displacement, velocity,
+//!                                     # contact-force, pressure, volume-ratio, von-mises
+//! ```
+
+mod body;
+mod output;
+mod rim_motion;
+mod stage;
+mod world;
+
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+
+use super::document::{self, Node};
+use super::reader::{Bound, Item, Later, Table};
+use super::units::ACCELERATION;
+use super::{Scene, overrides};
+use crate::error::{Error, Result};
+
+const SECTIONS: [&str; 11] = [
+    "title",
+    "source",
+    "expected",
+    "gravity",
+    "body",
+    "rim",
+    "road",
+    "friction",
+    "time_step",
+    "stage",
+    "output",
+];
+
+const LATER: [Later; 5] = [
+    ("sweep", "run the scene once per value with --set"),
+    ("checkpoint", "run the scene in one piece"),
+    ("restart", "run the scene in one piece"),
+    ("bodies", "describe one [body]"),
+    ("spectrum", "analyse history.csv"),
+];
+
+impl Scene {
+    /// Reads a scene file and applies `overrides` (`key=value`, dotted paths, array entries by index).
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the file cannot be read; [`Error::Scene`] with file, line, key, problem and remedy for
+    /// everything that is wrong in it; [`Error::Unsupported`] for what comes in a later version.
+    pub fn load(path: &Path, overrides: &[String]) -> Result<Scene> {
+        let text = std::fs::read_to_string(path).map_err(Error::io(path, "read the scene"))?;
+        Scene::parse(&text, &path.to_string_lossy(), overrides)
+    }
+
+    /// The same for a scene that is already in memory; `file` is its name in messages.
+    pub fn parse(text: &str, file: &str, overrides: &[String]) -> Result<Scene> {
+        read(&effective(text, file, overrides)?, file)
+    }
+
+    /// The scene's text with its overrides, in canonical form (keys sorted, no comments): what [`Scene::hash`]
+    /// is taken of. It reads back as the same scene.
+    pub fn effective_text(text: &str, file: &str, overrides: &[String]) -> Result<String> {
+        Ok(document::canonical(&effective(text, file, overrides)?))
+    }
+}
+
+fn effective(text: &str, file: &str, overrides: &[String]) -> Result<Node> {
+    let mut root = document::parse(text, file)?;
+    overrides.iter().try_for_each(|o| overrides::apply(&mut root, o, file))?;
+    Ok(root)
+}
+
+fn read(root: &Node, file: &str) -> Result<Scene> {
+    let table = Item { file, key: String::new(), node: root }.table()?;
+    table.only(&SECTIONS, &LATER)?;
+    let text = |key| table.get(key).map_or(Ok(String::new()), |item| item.text().map(Into::into));
+    let body = body::body(&table.section("body", "[body]")?)?;
+    let rim = table.get("rim").map(|item| world::rim(&item, &body.mesh)).transpose()?;
+    let road = table.get("road").map(|item| world::road(&item)).transpose()?;
+    let friction = table.get("friction").map(|item| world::friction(&item, road.is_some())).transpose()?;
+    let stages = stage::stages(&table.section("stage", "[[stage]]")?, rim.is_some())?;
+    let output = output::output(&table.section("output", "[output]")?, &stages, road.is_some())?;
+    Ok(Scene {
+        file: file.into(),
+        hash: hash(&document::canonical(root)),
+        title: table.need("title", "\"one line that names the scene\"")?.text()?.into(),
+        source: text("source")?,
+        expected: text("expected")?,
+        body,
+        rim,
+        road,
+        friction: friction.flatten(),
+        gravity: table.vector_or_zero("gravity", &ACCELERATION)?,
+        safety: table.get("time_step").map_or(Ok(0.9), |item| safety(&item.table()?))?,
+        stages,
+        output,
+    })
+}
+
+fn safety(table: &Table) -> Result<f64> {
+    table.only(&["safety"], &[])?;
+    table.number_or("safety", 0.9, Bound::Positive)
+}
+
+fn hash(text: &str) -> String {
+    Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect()
+}

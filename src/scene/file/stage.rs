@@ -1,0 +1,85 @@
+//! `[[stage]]`: method, duration and rim motion.
+
+use crate::error::Result;
+use crate::scene::reader::{Bound, Item, Later, Table};
+use crate::scene::units::{RATE, TIME};
+use crate::scene::{InitialVelocity, Method, Stage};
+
+use super::rim_motion::{Limits, rim_motion};
+
+const KEYS: [&str; 7] = ["name", "method", "duration", "mass_damping", "initial_velocity", "settle", "rim"];
+
+const LATER: [Later; 2] = [
+    ("friction", "friction is the same in every stage: set it in [friction]"),
+    ("checkpoint", "run the scene in one piece"),
+];
+
+const LATER_METHODS: [Later; 1] =
+    [("implicit", "use method = \"quasi-static\" (with mass_damping) or \"explicit\"")];
+
+/// Every stage in order; where the rim has been displaced to is followed across them.
+pub(super) fn stages(item: &Item, has_rim: bool) -> Result<Vec<Stage>> {
+    let entries = item.entries()?;
+    if entries.is_empty() {
+        return Err(item.error("no stage", "add a section [[stage]]"));
+    }
+    let mut place = [Some(0.0); 6];
+    entries.iter().enumerate().map(|(i, entry)| stage(entry, i, has_rim, &mut place)).collect()
+}
+
+fn stage(item: &Item, index: usize, has_rim: bool, place: &mut [Option<f64>; 6]) -> Result<Stage> {
+    let table = item.table()?;
+    table.only(&KEYS, &LATER)?;
+    let name = table.get("name").map_or(Ok(format!("stage {}", index + 1)), |n| n.text().map(Into::into))?;
+    let duration = table.quantity("duration", &TIME, Bound::Positive)?;
+    let (method, mass_damping) = method(&table)?;
+    let limits = Limits { quasi_static: method != Method::Explicit, duration };
+    Ok(Stage {
+        name,
+        method,
+        duration,
+        mass_damping,
+        initial_velocity: initial_velocity(&table, has_rim)?,
+        rim: rim_motion(&table, has_rim, limits, place)?,
+    })
+}
+
+/// Method with its criteria, and the mass damping.
+fn method(stage: &Table) -> Result<(Method, f64)> {
+    let names = [("explicit", false), ("quasi-static", true)];
+    let quasi_static = stage.need("method", "\"explicit\"")?.choice(&names, &LATER_METHODS)?;
+    let alpha = stage.quantity_or("mass_damping", 0.0, &RATE, Bound::NotNegative)?;
+    let settle = stage.get("settle");
+    if !quasi_static {
+        return match settle {
+            Some(item) => Err(item.error(
+                "an explicit stage lasts its whole duration",
+                "remove the key, or write method = \"quasi-static\"",
+            )),
+            None => Ok((Method::Explicit, alpha)),
+        };
+    }
+    if alpha == 0.0 {
+        // About twice the lowest angular frequency settles fastest.
+        let example = "\"3000 1/s\"";
+        let item = stage.need("mass_damping", example)?;
+        return Err(item.error("without damping nothing settles", format!("write a rate such as {example}")));
+    }
+    let (mut kinetic_ratio, mut residual) = (1e-8, 1e-4);
+    if let Some(table) = settle.map(|item| item.table()).transpose()? {
+        table.only(&["kinetic_ratio", "residual"], &[])?;
+        kinetic_ratio = table.number_or("kinetic_ratio", kinetic_ratio, Bound::Positive)?;
+        residual = table.number_or("residual", residual, Bound::Positive)?;
+    }
+    Ok((Method::QuasiStatic { kinetic_ratio, residual }, alpha))
+}
+
+fn initial_velocity(stage: &Table, has_rim: bool) -> Result<Option<InitialVelocity>> {
+    let Some(item) = stage.get("initial_velocity") else { return Ok(None) };
+    let names = [("rim", InitialVelocity::Rim), ("zero", InitialVelocity::Zero)];
+    let velocity = item.choice(&names, &[])?;
+    if velocity == InitialVelocity::Rim && !has_rim {
+        return Err(item.error("the scene has no rim", "add a section [rim], or write \"zero\""));
+    }
+    Ok(Some(velocity))
+}

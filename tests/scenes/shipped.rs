@@ -1,0 +1,120 @@
+//! The scenes that come with the program: each loads, explains itself and says what its name promises.
+
+use std::path::{Path, PathBuf};
+
+use hexroll::Error;
+use hexroll::scene::{
+    Drive, Element, Friction, InitialVelocity, Law, MeshSpec, Method, NodeSet, Rim, Road, Scene,
+};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")
+}
+
+fn load(stem: &str) -> Scene {
+    Scene::load(&folder().join(format!("{stem}.toml")), &[]).unwrap_or_else(|e| panic!("{e}"))
+}
+
+#[test]
+fn every_shipped_scene_loads_and_explains_itself() {
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder()).unwrap() {
+        let path = entry.unwrap().path();
+        let scene = Scene::load(&path, &[]).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(scene.file, path);
+        assert!(
+            !scene.title.is_empty() && !scene.source.is_empty() && !scene.expected.is_empty(),
+            "{path:?}"
+        );
+        let text = std::fs::read_to_string(&path).unwrap();
+        let head: String = text.lines().take_while(|l| l.starts_with('#')).collect();
+        for word in ["# Claim: ", "# Source: ", "# Expected: "] {
+            assert!(head.contains(word), "{path:?} does not begin with its {word}");
+        }
+        count += 1;
+    }
+    assert_eq!(count, 12);
+}
+
+#[test]
+fn every_wheel_is_the_papers() {
+    for (stem, eta, mu) in [
+        ("lat100_static", None, 1.0),
+        ("lat100_static_height", None, 1.0),
+        ("lat100_straight", None, 1.0),
+        ("lat100_straight_viscous", Some(20.0), 1.0),
+        ("lat100_slip45", None, 0.5),
+        ("lat100_slip45_viscous", Some(20.0), 0.5),
+        ("lat100_slip5_viscous", Some(20.0), 1.0),
+    ] {
+        let scene = load(stem);
+        let MeshSpec::Ring { outer_radius, inner_radius, width, elements } = scene.body.mesh else {
+            panic!("{stem}: no ring")
+        };
+        let micrometers = [outer_radius, inner_radius, width].map(|l| (l * 1e6).round());
+        assert_eq!((micrometers, elements), ([39000.0, 17000.0, 17500.0], [44, 4, 5]), "{stem}");
+        let Law::NeoHookean { g0, g1 } = scene.body.law else { panic!("{stem}: another law") };
+        assert_eq!((g0.round(), g1.round(), scene.body.density), (65.1e6, 2.64e6, 1100.0), "{stem}");
+        assert_eq!((scene.body.element, scene.body.viscosity), (Element::Q1p0, eta), "{stem}");
+        assert_eq!(scene.friction, Some(Friction::Coulomb { mu }), "{stem}");
+        assert_eq!((scene.gravity, scene.rim), ([0.0; 3], Some(Rim { nodes: NodeSet::Inner })), "{stem}");
+        let rest = Road::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [0.0; 3] };
+        assert_eq!(scene.road, Some(rest), "{stem}");
+        let settles = matches!(scene.stages[0].method, Method::QuasiStatic { .. });
+        assert!(settles && scene.stages[0].mass_damping == 3000.0, "{stem}");
+    }
+}
+
+#[test]
+fn rolling_wheels_start_at_once_on_their_pressed_shape() {
+    for (stem, x, y) in [
+        ("lat100_straight", 2.59, None),
+        ("lat100_straight_viscous", 2.59, None),
+        ("lat100_slip45", 1.9, Some(1.9)),
+        ("lat100_slip45_viscous", 1.9, Some(1.9)),
+        ("lat100_slip5_viscous", 2.5801, Some(0.2257)),
+    ] {
+        let stages = load(stem).stages;
+        let [press, roll] = &stages[..] else { panic!("{stem}: two stages") };
+        let Drive::Displacement { to, ramp } = press.rim.z else { panic!("{stem}: not pressed") };
+        assert_eq!(((to * 1e9).round(), (ramp * 1e9).round()), (-2.2e6, 2e7), "{stem}");
+        let at_once = |to| Drive::Velocity { to, ramp: 0.0 };
+        assert_eq!(roll.rim.x, at_once(x), "{stem}");
+        assert_eq!(roll.rim.y, y.map_or(Drive::Hold, at_once), "{stem}");
+        assert_eq!((roll.rim.z, roll.rim.spin), (Drive::Hold, at_once(70.0)), "{stem}");
+        assert_eq!(roll.initial_velocity, Some(InitialVelocity::Rim), "{stem}");
+        assert_eq!((roll.method, roll.mass_damping, roll.duration), (Method::Explicit, 0.0, 0.1), "{stem}");
+    }
+}
+
+#[test]
+fn the_static_wheels_are_each_others_inverse() {
+    let (force, height) = (load("lat100_static"), load("lat100_static_height"));
+    let Drive::Free { mass, load, .. } = force.stages[0].rim.z else { panic!("z is not free") };
+    assert_eq!((mass, load), (0.05, -300.0));
+    assert!(matches!(height.stages[0].rim.z, Drive::Displacement { .. }));
+    assert_eq!((force.body, force.friction), (height.body, height.friction));
+}
+
+#[test]
+fn small_scenes_have_only_what_they_claim() {
+    let (bar, spin, bounce) = (load("bar_wave"), load("spinning_block"), load("bouncing_block"));
+    assert_eq!((bar.road, bar.rim), (None, Some(Rim { nodes: NodeSet::XMin })));
+    assert_eq!((spin.road, spin.rim, spin.gravity), (None, None, [0.0; 3]));
+    assert!(spin.body.angular_velocity[2] > 0.0);
+    assert!(bounce.road.is_some() && bounce.friction.is_none() && bounce.body.velocity[2] < 0.0);
+    let (slope, pressed) = (load("block_on_slope"), load("pressed_block"));
+    let [x, _, z] = slope.gravity;
+    // The closed form rests on 9.81 m/s2 at 30 deg, typed with 16 digits.
+    assert!((x.hypot(z) - 9.81).abs() < 1e-14 && (x / -z - 1.0 / 3.0_f64.sqrt()).abs() < 1e-14);
+    assert!(slope.body.viscosity.is_some() && slope.stages[0].mass_damping > 0.0);
+    assert_eq!(slope.stages[1].mass_damping, 0.0);
+    assert_eq!(pressed.rim, Some(Rim { nodes: NodeSet::ZMax }));
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_named() {
+    let error = Scene::load(Path::new("no/such/scene.toml"), &[]).unwrap_err();
+    assert!(matches!(error, Error::Io { .. }));
+    assert!(error.to_string().contains("no/such/scene.toml: cannot read the scene"), "{error}");
+}
