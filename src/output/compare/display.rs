@@ -62,7 +62,8 @@ impl Display for SnapshotError {
         for e in &self.fields {
             let (name, max, l2) =
                 (format!("{} [{}]", e.name, e.unit), e.max_difference, ratio(e.relative_l2));
-            writeln!(f, "{name:<24} {max:>11.3e} {l2:>11}  {} {}", e.entity, e.worst)?;
+            let at = if max == 0.0 { "-".into() } else { format!("{} {}", e.entity, e.worst) };
+            writeln!(f, "{name:<24} {max:>11.3e} {l2:>11}  {at}")?;
         }
         Ok(())
     }

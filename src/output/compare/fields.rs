@@ -91,8 +91,8 @@ fn check_meshes(a: &Run, b: &Run, one: &Stored, other: &Stored) -> Result<()> {
     }
 }
 
-fn distance(p: [f64; 3], q: [f64; 3]) -> f64 {
-    (0..3).map(|d| (q[d] - p[d]).powi(2)).sum::<f64>().sqrt()
+fn distance<const N: usize>(p: [f64; N], q: [f64; N]) -> f64 {
+    (0..N).map(|d| (q[d] - p[d]).powi(2)).sum::<f64>().sqrt()
 }
 
 fn fields(one: &Stored, other: &Stored) -> Vec<FieldError> {
@@ -135,11 +135,11 @@ fn error<const N: usize>(
     entity: &'static str,
     [a, b]: [Vec<[f64; N]>; 2],
 ) -> FieldError {
-    let difference =
-        |(a, b): (&[f64; N], &[f64; N])| (0..N).map(|d| (b[d] - a[d]).powi(2)).sum::<f64>().sqrt();
-    let differences = a.iter().zip(&b).map(difference).enumerate();
-    // total_cmp puts NaN above every number: a NaN is the worst there is.
-    let (worst, max_difference) = differences.max_by(|x, y| x.1.total_cmp(&y.1)).unwrap_or((0, 0.0));
+    let differences = a.iter().zip(&b).map(|(a, b)| distance(*a, *b).abs());
+    // total_cmp puts NaN, with a plain sign, above every number: a NaN is the worst there is. Of equals
+    // max_by takes the last, so from the back it is the first.
+    let indexed = differences.enumerate().rev();
+    let (worst, max_difference) = indexed.max_by(|x, y| x.1.total_cmp(&y.1)).unwrap_or((0, 0.0));
     let pairs = a.as_flattened().iter().copied().zip(b.as_flattened().iter().copied());
     FieldError { name, unit, relative_l2: relative_l2(pairs), max_difference, worst, entity }
 }

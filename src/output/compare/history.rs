@@ -84,10 +84,12 @@ fn common_stages(a: &Run, b: &Run, notes: &mut Vec<String>) -> Vec<(Span, Span)>
 /// Rows of a stage that end at the same time since its start.
 fn pairs(a: &Run, b: &Run, one: &Span, other: &Span) -> Vec<(usize, usize)> {
     let since = |run: &Run, span: &Span, i: usize| run.history[i].time_s - span.start;
+    let rows: Vec<usize> = other.rows.clone().collect();
     let partner = |i: usize| {
         let time = since(a, one, i);
-        let near = other.rows.clone().find(|&j| since(b, other, j) >= time - a.tolerance())?;
-        (since(b, other, near) <= time + a.tolerance()).then_some((i, near))
+        let near = rows.partition_point(|&j| since(b, other, j) < time - a.tolerance());
+        let &j = rows.get(near)?;
+        (since(b, other, j) <= time + a.tolerance()).then_some((i, j))
     };
     one.rows.clone().filter_map(partner).collect()
 }

@@ -119,18 +119,17 @@ fn other_mesh(a: &Run, b: &Run, detail: String) -> Error {
     Error::Format { path: b.dir.into(), problem }
 }
 
-/// Norm of the difference over the norm of `a`; none if only `a` is all zero. NaN if any value is.
+/// Norm of the difference over the norm of `a`; none if only `a` is all zero. NaN (0/0 included) if any
+/// value is.
 fn relative_l2(pairs: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
     let (mut difference, mut norm) = (0.0, 0.0);
     for (a, b) in pairs {
         difference += (b - a) * (b - a);
         norm += a * a;
     }
-    if difference == 0.0 {
-        Some(0.0)
-    } else if norm == 0.0 {
-        None
-    } else {
-        Some((difference / norm).sqrt())
+    match (difference, norm) {
+        (0.0, _) => Some(0.0),
+        (d, 0.0) if !f64::is_nan(d) => None,
+        _ => Some((difference / norm).sqrt()),
     }
 }

@@ -55,7 +55,8 @@ impl Grid {
             for node in find(&format!("{section:?}"))?.children().filter(|n| n.is_element()) {
                 let name = node.attribute("Name").unwrap_or_default().to_owned();
                 let kind = node.attribute("type").unwrap_or_default().to_owned();
-                let components = number(&bad, node, "NumberOfComponents")?;
+                let single = !node.has_attribute("NumberOfComponents");
+                let components = if single { 1 } else { number(&bad, node, "NumberOfComponents")? };
                 let offset = number(&bad, node, "offset")?;
                 headers.insert((section, name), Header { kind, components, offset });
             }

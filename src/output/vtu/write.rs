@@ -42,16 +42,16 @@ impl<'a> Array<'a> {
 
     fn header(&self, offset: usize) -> String {
         let Array { name, kind, components, tuples, .. } = self;
+        let mut shape = String::new();
+        // Readers make a list of single numbers of what says nothing, a matrix of what says 1.
+        if *components > 1 {
+            shape += &format!(" NumberOfComponents=\"{components}\"");
+        }
         // Field data has no count of its own; elsewhere the piece gives the tuples.
-        let count = if self.section == Section::FieldData {
-            format!(" NumberOfTuples=\"{tuples}\"")
-        } else {
-            String::new()
-        };
-        format!(
-            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\"{count} \
-             format=\"appended\" offset=\"{offset}\"/>"
-        )
+        if self.section == Section::FieldData {
+            shape += &format!(" NumberOfTuples=\"{tuples}\"");
+        }
+        format!("<DataArray type=\"{kind}\" Name=\"{name}\"{shape} format=\"appended\" offset=\"{offset}\"/>")
     }
 }
 
