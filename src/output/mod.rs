@@ -18,7 +18,7 @@
 
 pub mod compare;
 pub mod contact;
-mod folder;
+pub(crate) mod folder;
 mod pvd;
 pub mod read;
 pub mod snapshot;
