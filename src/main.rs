@@ -122,7 +122,7 @@ fn main() {
     let t = std::time::Instant::now();
     let totals = hexroll::run::run(&scene, &model, &mut *engine, &mut p);
     println!("{:?} {totals:?}", t.elapsed());
-    for s in p.0.iter().filter(|s| s.stage == 1).take(100) {
+    for s in p.0.iter().filter(|s| s.stage == "roll").take(100) {
         println!(
             "ROW {} {} {} {} {} {}",
             s.time_s,
@@ -133,7 +133,7 @@ fn main() {
             s.contact_nodes * s.sticking_share
         );
     }
-    let r: Vec<&Sample> = p.0.iter().filter(|s| s.stage == 1).collect();
+    let r: Vec<&Sample> = p.0.iter().filter(|s| s.stage == "roll").collect();
     for b in r.chunks(10) {
         print!(
             "{:.1}/{:.1} ",

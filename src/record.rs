@@ -7,8 +7,8 @@
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Sample {
     pub time_s: f64,
-    /// Index of the stage, from 0.
-    pub stage: usize,
+    /// Name of the stage the window belongs to.
+    pub stage: String,
     /// Road's force on the body [N].
     pub road_fx_N: f64,
     pub road_fy_N: f64,
@@ -52,6 +52,23 @@ pub struct Sample {
     pub min_jacobian: f64,
     /// Step used in the window [s].
     pub dt_s: f64,
+}
+
+/// A column of numbers in `history.csv`: its name, and its value in a sample.
+pub type Column = (&'static str, fn(&Sample) -> f64);
+
+macro_rules! columns {
+    ($($name:ident)*) => { &[$((stringify!($name), |sample: &Sample| sample.$name)),*] };
+}
+
+impl Sample {
+    /// Every column but `stage`, in the order of the fields.
+    pub const COLUMNS: &'static [Column] = columns!(
+        time_s road_fx_N road_fy_N road_fz_N rim_fx_N rim_fy_N rim_fz_N rim_mx_Nm rim_my_Nm rim_mz_Nm
+        axle_x_m axle_y_m axle_z_m rim_angle_rad contact_area_m2 contact_nodes sticking_share kinetic_J
+        strain_J hourglass_J external_work_J friction_work_J contact_work_J damping_work_J viscous_work_J
+        balance_error_J stored_balance_error_J min_jacobian dt_s
+    );
 }
 
 /// State of a node that can touch the road.

@@ -9,7 +9,8 @@ use crate::scene::Road;
 
 /// Grain of a body [m].
 pub fn grain(mesh: &Mesh) -> f64 {
-    let reach = mesh.nodes.iter().flat_map(|x| (0..3).map(|d| (x[d] - mesh.axle[d]).abs())).fold(0.0, f64::max);
+    let reach =
+        mesh.nodes.iter().flat_map(|x| (0..3).map(|d| (x[d] - mesh.axle[d]).abs())).fold(0.0, f64::max);
     2.0f64.powi(reach.log2().floor() as i32)
 }
 

@@ -32,7 +32,7 @@ pub struct WindowEnd {
     pub time: f64,
     pub length: f64,
     pub dt: f64,
-    pub stage: usize,
+    pub stage: String,
 }
 
 impl Ledger {
@@ -86,7 +86,7 @@ impl Ledger {
         [row.axle_x_m, row.axle_y_m, row.axle_z_m] = [w.rim[0], w.rim[1], w.rim[2]];
         Sample {
             time_s: end.time,
-            stage: end.stage,
+            stage: end.stage.clone(),
             rim_angle_rad: w.rim[crate::physics::rim::SPIN],
             kinetic_J: w.kinetic,
             strain_J: w.strain,

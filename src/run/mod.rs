@@ -68,8 +68,8 @@ pub fn run(
     observer: &mut dyn Observer,
 ) -> Result<Totals> {
     let mut run = Run::new(scene, model, engine, observer)?;
-    for (index, stage) in scene.stages.iter().enumerate() {
-        run.stage(index, stage)?;
+    for stage in &scene.stages {
+        run.stage(stage)?;
         if run.totals.interrupted {
             break;
         }
@@ -157,7 +157,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn stage(&mut self, index: usize, stage: &Stage) -> Result<()> {
+    fn stage(&mut self, stage: &Stage) -> Result<()> {
         let start = self.totals.time;
         self.motion = self.motion.next(stage, start, self.rim);
         self.engine.begin_stage(&self.motion.setup(stage.mass_damping))?;
@@ -179,7 +179,7 @@ impl<'a> Run<'a> {
         let count = (stage.duration / sample - 1e-9).ceil().max(1.0) as u64;
         for n in 1..=count {
             let window_end = if n == count { end } else { start + n as f64 * sample };
-            let window = self.window(index, stage, window_end)?;
+            let window = self.window(stage, window_end)?;
             let settled = self.has_settled(stage, &window);
             let last = n == count || settled;
             self.snapshots(stage, &window, last)?;
@@ -214,7 +214,7 @@ impl<'a> Run<'a> {
     }
 
     /// Steps to `end` and books the window.
-    fn window(&mut self, index: usize, stage: &Stage, end: f64) -> Result<Window> {
+    fn window(&mut self, stage: &Stage, end: f64) -> Result<Window> {
         let start = self.totals.time;
         if self.totals.steps >= self.refresh_at {
             self.refresh()?;
@@ -232,7 +232,7 @@ impl<'a> Run<'a> {
         let next = self.motion.plan(end, dt, dt, 1)[0];
         let window = self.engine.sample(&next)?;
         (self.rim, self.rim_rate) = (window.rim, window.rim_rate);
-        let at = WindowEnd { time: end, length, dt, stage: index };
+        let at = WindowEnd { time: end, length, dt, stage: stage.name.clone() };
         let row = self.totals.ledger.row(self.model, self.scene.road.as_ref(), &at, &window);
         let progress = Progress { stage: &stage.name, time: end, end: self.end, steps: self.totals.steps };
         self.observer.sample(&row, &progress)?;

@@ -3,12 +3,21 @@
 use crate::error::Result;
 use crate::scene::reader::{Bound, Item, Later, Table};
 use crate::scene::units::{ANGULAR_VELOCITY, DENSITY, LENGTH, PRESSURE, VELOCITY, VISCOSITY};
-use crate::scene::{Body, Element, Law, MeshSpec};
+use crate::scene::{Body, Element, Law, Lumping, MeshSpec};
 
 const HOURGLASS: f64 = 0.15;
 
-const KEYS: [&str; 8] =
-    ["density", "element", "hourglass", "offset", "velocity", "angular_velocity", "mesh", "material"];
+const KEYS: [&str; 9] = [
+    "density",
+    "element",
+    "hourglass",
+    "mass_lumping",
+    "offset",
+    "velocity",
+    "angular_velocity",
+    "mesh",
+    "material",
+];
 
 const LATER_GENERATORS: [Later; 3] = [
     ("file", "use generator = \"ring\" or \"block\""),
@@ -27,6 +36,9 @@ pub(super) fn body(item: &Item) -> Result<Body> {
         law,
         viscosity,
         element: element(&table)?,
+        lumping: table.get("mass_lumping").map_or(Ok(Lumping::RowSum), |item| {
+            item.choice(&[("row-sum", Lumping::RowSum), ("equal", Lumping::Equal)], &[])
+        })?,
         velocity: table.vector_or_zero("velocity", &VELOCITY)?,
         angular_velocity: table.vector_or_zero("angular_velocity", &ANGULAR_VELOCITY)?,
     })

@@ -14,6 +14,7 @@
 //! density = "1100 kg/m3"              # in the reference shape, > 0
 //! element = "q1p0"                    # default | "full" | "uniform-gradient"
 //! hourglass = 0.15                    # default; hourglass stiffness over G, > 0; only with "uniform-gradient"
+//! mass_lumping = "row-sum"            # default: rho int N_a dV | "equal": an eighth of the element to each corner
 //! offset = ["0 mm", "0 mm", "0 mm"]   # moves the mesh before the start; default none
 //! velocity = ["0 m/s", "0 m/s", "0 m/s"]                  # of every node at t = 0; default none
 //! angular_velocity = ["0 rad/s", "0 rad/s", "0 rad/s"]    # at t = 0, about the centroid; default none

@@ -1,0 +1,184 @@
+//! `summary.json`: how a run was made and what it came to.
+
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::stages::{self, Span};
+use crate::record::Sample;
+
+/// A run in numbers. Seconds, joules and newtons are in the names.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Summary {
+    pub scene_file: String,
+    pub title: String,
+    /// SHA-256 of the scene's effective text, hexadecimal.
+    pub scene_hash: String,
+    /// GPU adapter and its driver; none on the CPU engine.
+    pub adapter: Option<String>,
+    pub driver: Option<String>,
+    /// `gpu` or `cpu`, and why it was taken, in words.
+    pub engine: String,
+    pub engine_reason: String,
+    /// `f64`, `f32` or `f32+`.
+    pub precision: String,
+    pub threads: usize,
+    pub elements: usize,
+    pub nodes: usize,
+    pub steps: u64,
+    /// Simulated time [s].
+    #[serde(deserialize_with = "number")]
+    pub time_s: f64,
+    /// Smallest and largest step used, and the critical step at the start [s].
+    #[serde(deserialize_with = "number")]
+    pub dt_min_s: f64,
+    #[serde(deserialize_with = "number")]
+    pub dt_max_s: f64,
+    #[serde(deserialize_with = "number")]
+    pub critical_dt_s: f64,
+    #[serde(deserialize_with = "number")]
+    pub wall_time_s: f64,
+    #[serde(deserialize_with = "number")]
+    pub element_updates_per_s: f64,
+    /// Energy balance by accumulated work, and by stored energy.
+    pub balance: WorstBalance,
+    pub stored_balance: WorstBalance,
+    /// Deepest surface node below the road at any sample [m], 0 if none was; none without a road.
+    pub worst_penetration_m: Option<f64>,
+    pub stages: Vec<StageMeans>,
+    pub versions: Versions,
+    pub warnings: Vec<String>,
+}
+
+/// The worst sample of an energy balance.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct WorstBalance {
+    /// Largest absolute error [J].
+    #[serde(deserialize_with = "number")]
+    pub worst_error_J: f64,
+    /// That error over the largest energy or work, by magnitude, of the whole run.
+    #[serde(deserialize_with = "number")]
+    pub share_of_largest_term: f64,
+}
+
+/// Means over the last 30 % of a stage's time.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct StageMeans {
+    pub stage: String,
+    #[serde(deserialize_with = "number")]
+    pub start_s: f64,
+    #[serde(deserialize_with = "number")]
+    pub end_s: f64,
+    /// Start of the part the means are taken over [s].
+    #[serde(deserialize_with = "number")]
+    pub means_from_s: f64,
+    #[serde(deserialize_with = "number")]
+    pub mean_road_fx_N: f64,
+    #[serde(deserialize_with = "number")]
+    pub mean_road_fy_N: f64,
+    #[serde(deserialize_with = "number")]
+    pub mean_road_fz_N: f64,
+    #[serde(deserialize_with = "number")]
+    pub mean_rim_fx_N: f64,
+    #[serde(deserialize_with = "number")]
+    pub mean_rim_fy_N: f64,
+    #[serde(deserialize_with = "number")]
+    pub mean_rim_fz_N: f64,
+    #[serde(deserialize_with = "number")]
+    pub mean_rim_mx_Nm: f64,
+    #[serde(deserialize_with = "number")]
+    pub mean_rim_my_Nm: f64,
+    #[serde(deserialize_with = "number")]
+    pub mean_rim_mz_Nm: f64,
+    #[serde(deserialize_with = "number")]
+    pub mean_axle_z_m: f64,
+    #[serde(deserialize_with = "number")]
+    pub mean_contact_area_m2: f64,
+}
+
+/// What the program was built from.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Versions {
+    pub hexroll: String,
+    pub wgpu: String,
+}
+
+impl Versions {
+    /// This build's: the crate's version, and wgpu's as `Cargo.lock` fixes it.
+    pub fn current() -> Versions {
+        let lock = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.lock"));
+        let wgpu = lock
+            .split("[[package]]")
+            .find_map(|package| package.trim_start().strip_prefix("name = \"wgpu\"\nversion = \""))
+            .and_then(|rest| rest.split('"').next());
+        Versions { hexroll: env!("CARGO_PKG_VERSION").into(), wgpu: wgpu.unwrap_or("unknown").into() }
+    }
+}
+
+impl StageMeans {
+    /// The means of every stage of a history.
+    pub fn of(history: &[Sample]) -> Vec<StageMeans> {
+        stages::spans(history).iter().map(|span| StageMeans::of_span(history, span)).collect()
+    }
+
+    fn of_span(history: &[Sample], span: &Span) -> StageMeans {
+        let tail = span.tail();
+        let mean = |value: fn(&Sample) -> f64| stages::mean(history, &tail, value);
+        StageMeans {
+            stage: span.stage.clone(),
+            start_s: span.start,
+            end_s: span.end,
+            means_from_s: tail.start,
+            mean_road_fx_N: mean(|s| s.road_fx_N),
+            mean_road_fy_N: mean(|s| s.road_fy_N),
+            mean_road_fz_N: mean(|s| s.road_fz_N),
+            mean_rim_fx_N: mean(|s| s.rim_fx_N),
+            mean_rim_fy_N: mean(|s| s.rim_fy_N),
+            mean_rim_fz_N: mean(|s| s.rim_fz_N),
+            mean_rim_mx_Nm: mean(|s| s.rim_mx_Nm),
+            mean_rim_my_Nm: mean(|s| s.rim_my_Nm),
+            mean_rim_mz_Nm: mean(|s| s.rim_mz_Nm),
+            mean_axle_z_m: mean(|s| s.axle_z_m),
+            mean_contact_area_m2: mean(|s| s.contact_area_m2),
+        }
+    }
+}
+
+/// Energies and works that a balance adds up.
+const TERMS: [fn(&Sample) -> f64; 8] = [
+    |s| s.kinetic_J,
+    |s| s.strain_J,
+    |s| s.hourglass_J,
+    |s| s.external_work_J,
+    |s| s.friction_work_J,
+    |s| s.contact_work_J,
+    |s| s.damping_work_J,
+    |s| s.viscous_work_J,
+];
+
+impl WorstBalance {
+    /// The accumulated-work balance of a history.
+    pub fn of(history: &[Sample]) -> WorstBalance {
+        WorstBalance::of_column(history, |s| s.balance_error_J)
+    }
+
+    /// The stored-energy balance of a history.
+    pub fn of_stored(history: &[Sample]) -> WorstBalance {
+        WorstBalance::of_column(history, |s| s.stored_balance_error_J)
+    }
+
+    fn of_column(history: &[Sample], error: fn(&Sample) -> f64) -> WorstBalance {
+        let worst_error_J = largest(history.iter().map(error));
+        let term = largest(history.iter().flat_map(|s| TERMS.map(|term| term(s))));
+        let share_of_largest_term = if worst_error_J == 0.0 { 0.0 } else { worst_error_J / term };
+        WorstBalance { worst_error_J, share_of_largest_term }
+    }
+}
+
+/// Largest magnitude; NaN if any value is.
+pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.map(f64::abs).fold(0.0, |worst, v| if v.is_nan() || v > worst { v } else { worst })
+}
+
+/// JSON has no NaN or infinity: they are written as null, and come back as NaN.
+fn number<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
+}
