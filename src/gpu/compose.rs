@@ -15,22 +15,68 @@ macro_rules! shaders {
     };
 }
 shaders!(
-    "contact/book", "contact/book_none", "contact/friction", "contact/frictionless", "contact/landing",
-    "contact/landing_none", "contact/none", "contact/project",
-    "damping/book", "damping/book_none", "damping/mass", "damping/none",
-    "element/full", "element/q1p0", "element/uniform_gradient",
+    "contact/book",
+    "contact/book_none",
+    "contact/friction",
+    "contact/frictionless",
+    "contact/landing",
+    "contact/landing_none",
+    "contact/none",
+    "contact/project",
+    "damping/book",
+    "damping/book_none",
+    "damping/mass",
+    "damping/none",
+    "element/full",
+    "element/q1p0",
+    "element/uniform_gradient",
     "friction/coulomb",
-    "kernels/element_energy", "kernels/element_force", "kernels/gather", "kernels/node", "kernels/node_probe",
-    "kernels/rebase", "kernels/rebase_plus", "kernels/reduce", "kernels/rim", "kernels/surface_state",
-    "lib/elements", "lib/gravity", "lib/gravity_none", "lib/hex8", "lib/index", "lib/invariants_i1",
-    "lib/invariants_i2", "lib/mean_elastic", "lib/mean_viscous", "lib/move_node", "lib/nodes", "lib/points",
-    "lib/points_elastic", "lib/points_viscous", "lib/recip_cbrt", "lib/two_sum",
-    "material/mooney_rivlin", "material/mooney_rivlin_eq4", "material/neo_hookean",
-    "position/f32", "position/f32_plus", "position/now_f32", "position/now_f32_plus", "position/store_f32",
+    "kernels/element_energy",
+    "kernels/element_force",
+    "kernels/gather",
+    "kernels/node",
+    "kernels/node_probe",
+    "kernels/rebase",
+    "kernels/rebase_plus",
+    "kernels/reduce",
+    "kernels/rim",
+    "kernels/surface_state",
+    "lib/elements",
+    "lib/gravity",
+    "lib/gravity_none",
+    "lib/hex8",
+    "lib/index",
+    "lib/invariants_i1",
+    "lib/invariants_i2",
+    "lib/mean_elastic",
+    "lib/mean_viscous",
+    "lib/move_node",
+    "lib/nodes",
+    "lib/points",
+    "lib/points_elastic",
+    "lib/points_viscous",
+    "lib/recip_cbrt",
+    "lib/two_sum",
+    "material/mooney_rivlin",
+    "material/mooney_rivlin_eq4",
+    "material/neo_hookean",
+    "position/f32",
+    "position/f32_plus",
+    "position/now_f32",
+    "position/now_f32_plus",
+    "position/store_f32",
     "position/store_f32_plus",
-    "rim/book", "rim/book_none", "rim/carried", "rim/free", "rim/none", "rim/prescribed",
-    "road/plane", "road/velocity",
-    "viscosity/book", "viscosity/book_none", "viscosity/kelvin_voigt",
+    "rim/book",
+    "rim/book_none",
+    "rim/carried",
+    "rim/free",
+    "rim/none",
+    "rim/prescribed",
+    "road/plane",
+    "road/velocity",
+    "viscosity/book",
+    "viscosity/book_none",
+    "viscosity/kelvin_voigt",
 );
 
 /// Entry points, one a file of `shaders/kernels`.
@@ -77,7 +123,10 @@ impl Choice {
             Kernel::ElementForce => [self.element_parts(), self.force_parts()].concat(),
             Kernel::ElementEnergy => [vec!["kernels/element_energy"], self.element_parts()].concat(),
             Kernel::Node => [vec!["kernels/node"], self.node_parts(), self.booking_parts()].concat(),
-            Kernel::NodeProbe => [vec!["kernels/node_probe", self.now()], self.node_parts(), vec![self.damping_book()]].concat(),
+            Kernel::NodeProbe => {
+                [vec!["kernels/node_probe", self.now()], self.node_parts(), vec![self.damping_book()]]
+                    .concat()
+            }
             Kernel::Rim => vec!["kernels/rim", "lib/nodes", self.now(), self.gravity_part()],
             Kernel::SurfaceState => vec!["kernels/surface_state", "lib/index", self.now()],
             Kernel::Gather => vec!["kernels/gather", "lib/index", "lib/nodes"],
@@ -99,7 +148,8 @@ impl Choice {
             Element::Full => vec!["element/full", "lib/points"],
             Element::UniformGradient { .. } => vec!["element/uniform_gradient"],
         };
-        let common = ["lib/elements", "lib/hex8", "lib/index", "lib/recip_cbrt", position, material, invariants];
+        let common =
+            ["lib/elements", "lib/hex8", "lib/index", "lib/recip_cbrt", position, material, invariants];
         [element, common.to_vec()].concat()
     }
 
@@ -167,7 +217,8 @@ impl Choice {
             Element::Q1p0 | Element::Full => "alias Class = PointClass;\n",
         };
         for part in self.parts(kernel) {
-            let (_, source) = PARTS.iter().find(|(name, _)| *name == part).expect("every part is listed in PARTS");
+            let (_, source) =
+                PARTS.iter().find(|(name, _)| *name == part).expect("every part is listed in PARTS");
             text += source;
         }
         text

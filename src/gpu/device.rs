@@ -1,0 +1,126 @@
+//! Adapters: which there are, which one to take, and a device with what it offers.
+
+use crate::error::{Error, Result};
+
+/// What wgpu sees, with the limits that matter here.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct AdapterReport {
+    pub name: String,
+    pub backend: String,
+    pub driver: String,
+    /// A processor pretending to be a GPU.
+    pub software: bool,
+    /// Largest storage binding and buffer [bytes].
+    pub storage_binding: u64,
+    pub buffer: u64,
+    /// Storage buffers a compute stage may bind (this program binds up to 12).
+    pub storage_buffers: u32,
+    /// Work groups a dispatch may have in one dimension.
+    pub workgroups: u32,
+    /// Memory shared by a work group [bytes].
+    pub shared_memory: u32,
+    /// Whether timestamps inside passes can be read.
+    pub timestamps: bool,
+    /// Whether this program can run on it, and if not, why not.
+    pub unusable: Option<String>,
+}
+
+/// Storage buffers bound by the largest kernel.
+pub const STORAGE_BUFFERS: u32 = 12;
+
+fn instance() -> wgpu::Instance {
+    wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env())
+}
+
+fn all() -> Vec<wgpu::Adapter> {
+    pollster::block_on(instance().enumerate_adapters(wgpu::Backends::all()))
+}
+
+fn is_software(info: &wgpu::AdapterInfo) -> bool {
+    info.device_type == wgpu::DeviceType::Cpu
+}
+
+/// Discrete before integrated before others before software.
+fn rank(info: &wgpu::AdapterInfo) -> u8 {
+    match info.device_type {
+        wgpu::DeviceType::DiscreteGpu => 0,
+        wgpu::DeviceType::IntegratedGpu => 1,
+        wgpu::DeviceType::VirtualGpu => 2,
+        wgpu::DeviceType::Other => 3,
+        wgpu::DeviceType::Cpu => 4,
+    }
+}
+
+fn report(adapter: &wgpu::Adapter) -> AdapterReport {
+    let (info, limits) = (adapter.get_info(), adapter.limits());
+    let buffers = limits.max_storage_buffers_per_shader_stage;
+    let unusable =
+        if !adapter.get_downlevel_capabilities().flags.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS) {
+            Some("it has no compute shaders".to_string())
+        } else if buffers < STORAGE_BUFFERS {
+            Some(format!("it binds {buffers} storage buffers a stage, {STORAGE_BUFFERS} are needed"))
+        } else {
+            None
+        };
+    AdapterReport {
+        name: info.name.clone(),
+        backend: info.backend.to_string(),
+        driver: format!("{} {}", info.driver, info.driver_info).trim().to_string(),
+        software: is_software(&info),
+        storage_binding: limits.max_storage_buffer_binding_size,
+        buffer: limits.max_buffer_size,
+        storage_buffers: buffers,
+        workgroups: limits.max_compute_workgroups_per_dimension,
+        shared_memory: limits.max_compute_workgroup_storage_size,
+        timestamps: adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES),
+        unusable,
+    }
+}
+
+/// Every adapter, in the order in which they would be taken.
+pub fn adapters() -> Vec<AdapterReport> {
+    let mut all = all();
+    all.sort_by_key(|a| rank(&a.get_info()));
+    all.iter().map(report).collect()
+}
+
+/// A device ready for compute, with the adapter's own limits.
+#[derive(Debug, Clone)]
+pub struct Gpu {
+    pub device: wgpu::Device,
+    pub queue: wgpu::Queue,
+    pub report: AdapterReport,
+}
+
+impl Gpu {
+    /// Opens the best usable adapter, or the first whose name contains `name` (any case).
+    pub fn open(name: Option<&str>) -> Result<Gpu> {
+        let mut candidates = all();
+        candidates.sort_by_key(|a| rank(&a.get_info()));
+        let wanted = |a: &&wgpu::Adapter| {
+            name.is_none_or(|n| a.get_info().name.to_lowercase().contains(&n.to_lowercase()))
+        };
+        let adapter =
+            candidates.iter().filter(wanted).find(|a| report(a).unusable.is_none()).ok_or_else(|| {
+                let seen: Vec<String> = candidates
+                    .iter()
+                    .map(|a| report(a))
+                    .map(|r| {
+                        format!("{} ({})", r.name, r.unusable.as_deref().unwrap_or("not the one asked for"))
+                    })
+                    .collect();
+                let detail = if seen.is_empty() { "wgpu sees none".to_string() } else { seen.join(", ") };
+                Error::NoAdapter { detail }
+            })?;
+        let report = report(adapter);
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("hexroll"),
+            required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+            required_limits: adapter.limits(),
+            ..Default::default()
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
+            .map_err(|e| Error::Device { adapter: report.name.clone(), detail: e.to_string() })?;
+        Ok(Gpu { device, queue, report })
+    }
+}
