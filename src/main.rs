@@ -113,7 +113,17 @@ fn main() {
     };
     let model = Model::new(&scene).unwrap();
     println!("classes {}", model.classes.len());
-    let mut engine: Box<dyn Engine> = if single {
+    let gpu_mode = std::env::var("GPU").ok();
+    let mut engine: Box<dyn Engine> = if let Some(mode) = gpu_mode {
+        let gpu = hexroll::gpu::Gpu::open(None).unwrap();
+        match hexroll::gpu::GpuEngine::new(&gpu, &model, &scene, mode == "+") {
+            Ok(e) => Box::new(e),
+            Err(e) => {
+                println!("{e}");
+                return;
+            }
+        }
+    } else if single {
         Box::new(CpuEngine::<f32>::new(&model, &scene, threads))
     } else {
         Box::new(CpuEngine::<f64>::new(&model, &scene, threads))
