@@ -45,9 +45,7 @@ fn piola(choice: &Law, F: &Mat3<f64>) -> Mat3<f64> {
 /// sigma = P F^T / J, columns (symmetric).
 fn cauchy(choice: &Law, F: &Mat3<f64>) -> Mat3<f64> {
     let P = piola(choice, F);
-    std::array::from_fn(|j| {
-        std::array::from_fn(|i| (0..3).map(|c| P[c][i] * F[c][j]).sum::<f64>() / det(F))
-    })
+    std::array::from_fn(|j| std::array::from_fn(|i| (0..3).map(|c| P[c][i] * F[c][j]).sum::<f64>() / det(F)))
 }
 
 /// A random deformation with a volume ratio in 0.7..1.4.
@@ -69,7 +67,11 @@ fn assert_stress(choice: &Law, F: &Mat3<f64>, expected: Mat3<f64>) {
         for j in 0..3 {
             // Cubic roots and a dozen products: about 20 round-offs of the stiffest modulus.
             let error = (sigma[j][i] - expected[j][i]).abs();
-            assert!(error < 1e-14 * 10.0 * KAPPA, "{choice:?} sigma[{i}][{j}] = {} is off by {error}", sigma[j][i]);
+            assert!(
+                error < 1e-14 * 10.0 * KAPPA,
+                "{choice:?} sigma[{i}][{j}] = {} is off by {error}",
+                sigma[j][i]
+            );
         }
     }
 }
@@ -162,8 +164,7 @@ fn axial_stretch_has_its_closed_form_stress() {
             let (along, across) = (p + 2.0 / 3.0 * deviator, p - deviator / 3.0);
             assert_stress(choice, &F, diagonal(along, across, across));
         }
-        let sigma =
-            |b: f64| (KAPPA * (J - 1.0) + 0.7 * G * (b - 1.0) - 0.3 * G * (1.0 / b - 1.0)) / J;
+        let sigma = |b: f64| (KAPPA * (J - 1.0) + 0.7 * G * (b - 1.0) - 0.3 * G * (1.0 / b - 1.0)) / J;
         assert_stress(&LAWS[2], &F, diagonal(sigma(b1), sigma(b2), sigma(b2)));
     }
 }

@@ -76,7 +76,11 @@ fn an_affine_motion_of_a_distorted_mesh_is_homogeneous() {
         assert_eq!(interior.len(), 3 * 2 * 2);
         for n in interior {
             // Eight elements' round-off, with positions of four edges.
-            assert!(largest([&forces[n]]) < 2e-14 * scale, "{element:?} {law:?}: {:?} at node {n}", forces[n]);
+            assert!(
+                largest([&forces[n]]) < 2e-14 * scale,
+                "{element:?} {law:?}: {:?} at node {n}",
+                forces[n]
+            );
         }
         let expected = expected_stress(law);
         for (hex, &class) in model.mesh.hexes.iter().zip(&model.class_of) {
@@ -85,7 +89,10 @@ fn an_affine_motion_of_a_distorted_mesh_is_homogeneous() {
             for (c, i) in (0..9).map(|k| (k / 3, k % 3)) {
                 // Round-off of the bulk modulus, positions of four edges.
                 let error = (sigma[c][i] - expected[c][i]).abs();
-                assert!(error < 1e-13 * common::KAPPA, "{element:?} {law:?} sigma[{i}][{c}] is off by {error}");
+                assert!(
+                    error < 1e-13 * common::KAPPA,
+                    "{element:?} {law:?} sigma[{i}][{c}] is off by {error}"
+                );
             }
         }
     }

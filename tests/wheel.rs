@@ -85,9 +85,15 @@ fn reference() -> Vec<([f64; 3], [f64; 3])> {
 }
 
 /// Node by node, the contact forces are those of an independent implicit solver, within 0.5 % of the largest force.
+///
+/// A node sticks where it lands, so shear forces remember how the wheel came down: pressed in 20 ms they differ by
+/// 0.6 % of the largest force, pressed slowly by 0.3 %. Normal forces agree within 0.1 % either way.
 #[test]
 fn contact_forces_agree_node_by_node() {
-    let outcome = pressed(Element::Q1p0, 1.0);
+    let mut scene = wheel(MESH, 1.0);
+    let slowly = Drive::Displacement { to: -DEPTH, ramp: 0.15 };
+    scene.stages = vec![Stage { duration: 0.4, mass_damping: 1000.0, ..press(slowly) }];
+    let outcome = run(&scene);
     let contact = &outcome.snapshots[0].contact;
     let rows = reference();
     let top = rows.iter().map(|(_, f)| f[2]).fold(0.0, f64::max);
@@ -171,7 +177,8 @@ fn slip_at_five_degrees_has_the_reference_forces() {
     close("Mz", moment[2], -0.226, 0.03);
 }
 
-/// A rim without torque finds free rolling: 66.62 rad/s at 2.59 m/s, and almost no longitudinal force.
+/// A rim without torque finds free rolling: 66.62 rad/s at 2.59 m/s, and almost no longitudinal force
+/// (the independent program after 0.25 s; the rim has settled long before).
 #[test]
 fn a_torque_free_rim_finds_free_rolling() {
     let mut scene = wheel(MESH, 1.0);
@@ -183,7 +190,7 @@ fn a_torque_free_rim_finds_free_rolling() {
     scene.stages = vec![
         press(DOWN),
         Stage { initial_velocity: Some(InitialVelocity::Rim), rim: driven, ..explicit("driven", 0.02) },
-        Stage { rim: RimMotion { x: forward, spin: free, ..HELD }, ..explicit("free", 0.25) },
+        Stage { rim: RimMotion { x: forward, spin: free, ..HELD }, ..explicit("free", 0.15) },
     ];
     let outcome = run(&scene);
     let rows = outcome.stage(2);
@@ -193,7 +200,25 @@ fn a_torque_free_rim_finds_free_rolling() {
     close("free rolling", omega, 66.62, 1e-3);
     let fx = mean(&rows, 50, |s| s.road_fx_N);
     assert!(fx.abs() < 0.5, "longitudinal force {fx} N");
-    // The rim keeps its spin when it is let go: it brakes from 70 rad/s, it does not start from nothing.
-    let first_turn = (rows[1].rim_angle_rad - rows[0].rim_angle_rad) / (rows[1].time_s - rows[0].time_s);
-    assert!(first_turn > 60.0, "{first_turn} rad/s just after its release");
+}
+
+/// A spinning rim that is let go keeps its spin, wherever it was driven to.
+#[test]
+fn a_released_rim_keeps_its_spin() {
+    let mut scene = wheel([16, 2, 2], 0.0);
+    scene.road = None;
+    let spinning = RimMotion { spin: Drive::Velocity { to: 70.0, ramp: 0.0 }, ..HELD };
+    let free = RimMotion { spin: Drive::Free { mass: 1e-4, load: 0.0, ramp: 0.0 }, ..HELD };
+    scene.stages = vec![
+        Stage { initial_velocity: Some(InitialVelocity::Rim), rim: spinning, ..explicit("driven", 0.01) },
+        Stage { rim: free, ..explicit("free", 0.01) },
+        // Starting a stage with the rim's motion takes a free component's own rate.
+        Stage { initial_velocity: Some(InitialVelocity::Rim), rim: free, ..explicit("again", 0.01) },
+    ];
+    let outcome = run(&scene);
+    for pair in outcome.samples.windows(2) {
+        let omega = (pair[1].rim_angle_rad - pair[0].rim_angle_rad) / (pair[1].time_s - pair[0].time_s);
+        // The ring, let go at once, breathes under its centrifugal load and twists against the rim by a few per cent.
+        close("spin", omega, 70.0, 0.05);
+    }
 }

@@ -153,9 +153,11 @@ pub fn run(scene: &Scene) -> Outcome {
     try_run(scene, Precision::F64, 1).expect("the scene runs")
 }
 
-/// An f64 engine driven step by step, for a body without a rim.
+/// An f64 engine driven step by step.
 pub struct Driver {
     pub engine: Box<dyn Engine>,
+    /// Rim coordinates of the steps to come; at first those of the reference shape.
+    pub rim: [f64; 6],
     pub time: f64,
     pub dt_before: f64,
 }
@@ -164,12 +166,13 @@ impl Driver {
     pub fn new(model: &Model, scene: &Scene) -> Driver {
         let mut engine = cpu::engine(model, scene, Precision::F64, 1);
         engine.begin_stage(&StageSetup::default()).expect("a stage starts");
-        Driver { engine, time: 0.0, dt_before: 0.0 }
+        let [x, y, z] = model.mesh.axle;
+        Driver { engine, rim: [x, y, z, 0.0, 0.0, 0.0], time: 0.0, dt_before: 0.0 }
     }
 
-    /// The next step of `dt`, with the rim where it is at the start.
+    /// The next step of `dt`.
     pub fn step(&self, dt: f64) -> Step {
-        Step { time: self.time, dt, dt_before: self.dt_before, rim: [0.0; 6], load: [0.0; 6] }
+        Step { time: self.time, dt, dt_before: self.dt_before, rim: self.rim, load: [0.0; 6] }
     }
 
     /// Takes steps of the given lengths.
