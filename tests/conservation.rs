@@ -153,42 +153,51 @@ fn a_free_body_keeps_its_momenta() {
     }
 }
 
-/// Worst stored-energy error, relative to the largest term, in the first and in the second half of 20,000 steps
-/// (`refine` times as many of 1/`refine` the length).
-fn stored_error(scene: &Scene, refine: usize) -> [f64; 2] {
-    let (model, mut driver) = vibrating(scene, 0.05);
-    let dt = 0.9 * stability::element_bound(&model).unwrap() / refine as f64;
-    let start: f64 = {
-        let state = driver.engine.state().unwrap();
-        let square = |v: &Vec3<f64>| v.iter().map(|c| c * c).sum::<f64>();
-        state.v.iter().zip(&model.mass).map(|(v, m)| 0.5 * m * square(v)).sum()
-    };
-    let mut halves = [0.0f64; 2];
-    let mut largest = start;
-    for window in 0..400 {
-        driver.advance(std::iter::repeat_n(dt, 50 * refine)).unwrap();
+/// Stored-energy error over the block's own energy after every `every` steps of `share` of the element bound.
+fn stored_errors(scene: &Scene, strain: f64, share: f64, every: usize, samples: usize) -> Vec<f64> {
+    let (model, mut driver) = vibrating(scene, strain);
+    let dt = share * stability::element_bound(&model).unwrap();
+    let state = driver.engine.state().unwrap();
+    let square = |v: &Vec3<f64>| v.iter().map(|c| c * c).sum::<f64>();
+    let start: f64 = state.v.iter().zip(&model.mass).map(|(v, m)| 0.5 * m * square(v)).sum();
+    let error = |_| {
+        driver.advance(std::iter::repeat_n(dt, every)).unwrap();
         let w = driver.sample(dt);
-        largest = largest.max(w.strain).max(w.kinetic);
-        let error = w.strain + w.hourglass + w.probe.mixed_kinetic - start;
-        halves[window / 200] = halves[window / 200].max(error.abs());
-    }
-    halves.map(|e| e / largest)
+        (w.strain + w.hourglass + w.probe.mixed_kinetic - start) / start
+    };
+    (0..samples).map(error).collect()
 }
 
-/// Stored plus kinetic energy of that block at 5 % strain: within 1e-2, the later half of the run no worse than the first,
-/// and fourfold smaller at half the step (the scheme is of second order).
+fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt()
+}
+
+/// Stored plus kinetic energy of that block over 20,000 steps at 5 % strain: within 1e-2, without a trend. The error rises
+/// while the smooth mode breaks into short ones (some thousand steps), then stays.
 #[test]
-fn stored_energy_is_bounded_and_of_second_order() {
+fn stored_energy_is_bounded_without_a_trend() {
     for element in ELEMENTS {
         let mut scene = soft_block();
         scene.body.element = element;
-        let coarse = stored_error(&scene, 1);
-        assert!(coarse[0] < 1e-2 && coarse[1] < 1e-2, "{element:?}: {coarse:?}");
-        // Without a trend: a drift would double it.
-        assert!(coarse[1] < 1.3 * coarse[0], "{element:?}: {coarse:?}");
-        let fine = stored_error(&scene, 2);
-        let ratio = coarse[0] / fine[0];
-        assert!((3.0..5.5).contains(&ratio), "{element:?}: halving the step divides the error by {ratio}");
+        let errors = stored_errors(&scene, 0.05, 0.9, 50, 400);
+        let worst = errors.iter().fold(0.0f64, |m, e| m.max(e.abs()));
+        assert!(worst < 1e-2, "{element:?}: {worst}");
+        let (second, last) = (rms(&errors[100..200]), rms(&errors[300..]));
+        // A drift that reached the second quarter's value by then would double it by the last.
+        assert!(last < 1.25 * second, "{element:?}: {second} in the second quarter, {last} in the last");
+    }
+}
+
+/// While the motion is smooth (150 steps, about one period, at 1 % strain) halving the step divides that error by four:
+/// the scheme is of second order.
+#[test]
+fn stored_energy_error_is_of_second_order() {
+    for element in ELEMENTS {
+        let mut scene = soft_block();
+        scene.body.element = element;
+        let coarse = rms(&stored_errors(&scene, 0.01, 0.8, 5, 30));
+        let fine = rms(&stored_errors(&scene, 0.01, 0.4, 10, 30));
+        assert!((3.2..5.0).contains(&(coarse / fine)), "{element:?}: the error falls by {}", coarse / fine);
     }
 }
 
@@ -202,13 +211,14 @@ fn the_ledger_of_a_run_closes() {
     scene.road = Some(GROUND);
     scene.friction = Some(Friction::Coulomb { mu: 0.5 });
     scene.gravity = [0.0, 0.0, -9.81];
+    scene.safety = 0.45;
     scene.stages[0].duration = 0.03;
     scene.stages[0].mass_damping = 20.0;
     assert_eq!(scene.stages[0].rim.spin, Drive::Hold);
     let outcome = common::run(&scene);
     let ledger = &outcome.totals.ledger;
     assert!(ledger.worst_balance < 1e-12 * ledger.largest_term, "{ledger:?}");
-    // The stored balance is of second order, and the run does change its step between windows.
+    // The impact excites every frequency: at half of the largest step the second-order error is within 1e-2.
     assert!(ledger.worst_stored_balance < 1e-2 * ledger.largest_term, "{ledger:?}");
     let last = outcome.last();
     assert!(last.friction_work_J < 0.0 && last.damping_work_J < 0.0 && last.viscous_work_J < 0.0, "{last:?}");

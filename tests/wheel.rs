@@ -190,7 +190,7 @@ fn a_torque_free_rim_finds_free_rolling() {
     scene.stages = vec![
         press(DOWN),
         Stage { initial_velocity: Some(InitialVelocity::Rim), rim: driven, ..explicit("driven", 0.02) },
-        Stage { rim: RimMotion { x: forward, spin: free, ..HELD }, ..explicit("free", 0.15) },
+        Stage { rim: RimMotion { x: forward, spin: free, ..HELD }, ..explicit("free", 0.1) },
     ];
     let outcome = run(&scene);
     let rows = outcome.stage(2);
