@@ -206,7 +206,12 @@ impl<'a> Run<'a> {
 
     /// The rigid velocity of the rim's motion for every node, and for the rim's free components.
     fn start_with_rim(&mut self, time: f64) -> Result<()> {
-        let rate = self.motion.rate_at(time);
+        let mut rate = self.motion.rate_at(time);
+        for (component, free) in self.motion.setup(0.0).free.iter().enumerate() {
+            if free.is_some() {
+                rate[component] = self.rim_rate[component];
+            }
+        }
         let omega = rim::angular_velocity(&self.rim, &rate);
         let (axle, velocity) = (rim::axle(&self.rim), rim::axle(&rate));
         self.rim_rate = rate;
