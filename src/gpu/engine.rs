@@ -524,7 +524,6 @@ impl Engine for GpuEngine {
     }
 
     fn begin_stage(&mut self, setup: &StageSetup) -> Result<()> {
-        self.rim.begin_stage(setup);
         if *setup != self.setup {
             self.stage = self.stage.rebuilt(
                 &self.gpu,

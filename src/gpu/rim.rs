@@ -7,7 +7,7 @@ use crate::model::Model;
 use crate::physics::rim::{self, Coordinates, SPIN};
 use glam::DMat3;
 
-/// Coordinates at the start of the window, and what the device needs to know of the rim.
+/// Coordinates at the start of the window with their half-step rates, and what the device needs to know of the rim.
 #[derive(Debug, Clone)]
 pub struct FreeRim {
     pub q: Coordinates,
@@ -29,14 +29,6 @@ impl FreeRim {
             rate: [0.0; 6],
             node_mass: masses.iter().sum(),
             node_inertia: inertias.iter().sum(),
-        }
-    }
-
-    pub fn begin_stage(&mut self, setup: &StageSetup) {
-        for component in 0..6 {
-            if setup.free[component].is_none() {
-                self.rate[component] = 0.0;
-            }
         }
     }
 

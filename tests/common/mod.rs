@@ -110,9 +110,11 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Samples of one stage.
+    /// Samples of the stage that ran as number `index` (stages have different names).
     pub fn stage(&self, index: usize) -> Vec<&Sample> {
-        self.samples.iter().filter(|s| s.stage == index).collect()
+        let mut names: Vec<&str> = self.samples.iter().map(|s| s.stage.as_str()).collect();
+        names.dedup();
+        self.samples.iter().filter(|s| s.stage == names[index]).collect()
     }
 
     pub fn last(&self) -> &Sample {
