@@ -116,6 +116,20 @@ pub struct Probe {
     pub internal_force: f64,
 }
 
+/// Stored energies [J] and the smallest det F over all points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnergyTotals {
+    pub strain: f64,
+    pub hourglass: f64,
+    pub min_jacobian: f64,
+}
+
+impl Default for EnergyTotals {
+    fn default() -> Self {
+        EnergyTotals { strain: 0.0, hourglass: 0.0, min_jacobian: f64::INFINITY }
+    }
+}
+
 /// Positions and half-step velocities of all nodes, absolute, SI, f64.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct State {

@@ -1,11 +1,14 @@
 //! The reference engine: the same passes in the same order as the GPU's, in f64 or f32, on any number of threads
 //! with the same bits.
 
+mod batches;
 mod elements;
 mod engine;
+mod family;
 mod nodes;
 mod reduce;
 mod rim;
+mod state;
 mod team;
 
 pub use elements::element_forces;

@@ -66,17 +66,17 @@ struct Grid {
     nodes: Vec<[f64; 3]>,
 }
 
-/// Logical directions: i along the circumference, j along the width, k along the radius, so that a column
-/// of constant radius is contiguous and (i, j, k) is right-handed.
+/// Logical directions: i along the circumference, j along the width, k along the radius, so that rows around the ring
+/// are contiguous, layers of equal shape too, and (i, j, k) is right-handed.
 fn ring(outer: f64, inner: f64, width: f64, [nc, nr, nw]: [usize; 3]) -> Grid {
     let mut nodes = Vec::with_capacity(nc * (nr + 1) * (nw + 1));
     for k in 0..=nr {
         let radius = inner + (outer - inner) * k as f64 / nr as f64;
-        for i in 0..nc {
-            // Node 0 at the bottom, then towards -x: a turn about +y.
-            let (sin, cos) = (std::f64::consts::TAU * i as f64 / nc as f64).sin_cos();
-            for j in 0..=nw {
-                let y = width * (j as f64 / nw as f64 - 0.5);
+        for j in 0..=nw {
+            let y = width * (j as f64 / nw as f64 - 0.5);
+            for i in 0..nc {
+                // Node 0 at the bottom, then towards -x: a turn about +y.
+                let (sin, cos) = (std::f64::consts::TAU * i as f64 / nc as f64).sin_cos();
                 nodes.push([-radius * sin, y, outer - radius * cos]);
             }
         }
@@ -88,8 +88,8 @@ fn block(size: [f64; 3], counts: [usize; 3]) -> Grid {
     let [nx, ny, nz] = counts;
     let mut nodes = Vec::with_capacity((nx + 1) * (ny + 1) * (nz + 1));
     for k in 0..=nz {
-        for i in 0..=nx {
-            for j in 0..=ny {
+        for j in 0..=ny {
+            for i in 0..=nx {
                 let at = |c: usize, n: usize, s: f64| s * c as f64 / n as f64;
                 nodes.push([at(i, nx, size[0]), at(j, ny, size[1]), at(k, nz, size[2])]);
             }
@@ -99,11 +99,11 @@ fn block(size: [f64; 3], counts: [usize; 3]) -> Grid {
 }
 
 impl Grid {
-    /// Index of logical node (i, j, k): j fastest, then i, then k.
+    /// Index of logical node (i, j, k): i fastest, then j, then k.
     fn node(&self, i: usize, j: usize, k: usize) -> u32 {
         let [ni, nj, _] = self.counts;
-        let rows = if self.wrap { ni } else { ni + 1 };
-        ((k * rows + i % rows) * (nj + 1) + j) as u32
+        let row = if self.wrap { ni } else { ni + 1 };
+        ((k * (nj + 1) + j) * row + i % row) as u32
     }
 
     fn into_mesh(self, offset: [f64; 3], axle: [f64; 3], rim: Option<NodeSet>) -> Mesh {
@@ -111,8 +111,8 @@ impl Grid {
         let mut hexes = Vec::with_capacity(ni * nj * nk);
         let mut facets = Vec::new();
         for k in 0..nk {
-            for i in 0..ni {
-                for j in 0..nj {
+            for j in 0..nj {
+                for i in 0..ni {
                     let hex = SIGNS.map(|s| {
                         let up = |d: usize| usize::from(s[d] > 0.0);
                         self.node(i + up(0), j + up(1), k + up(2))
@@ -159,8 +159,8 @@ impl Grid {
         let rows = if self.wrap { ni } else { ni + 1 };
         let mut nodes = Vec::new();
         for k in 0..=nk {
-            for i in 0..rows {
-                for j in 0..=nj {
+            for j in 0..=nj {
+                for i in 0..rows {
                     if [i, j, k][direction] == at {
                         nodes.push(self.node(i, j, k));
                     }

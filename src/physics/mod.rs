@@ -3,6 +3,7 @@
 pub mod contact;
 pub mod element;
 pub mod friction;
+pub mod lanes;
 pub mod material;
 pub mod node;
 pub mod rim;

@@ -3,8 +3,8 @@
 //!
 //! Mass damping acts on the mean velocity, -alpha m (v(n-1/2) + v(n+1/2))/2: implicit in v, so it never limits dt.
 
-use super::scalar::Real;
-use super::tensor::{Vec3, add, axpy, scale, sub};
+use super::scalar::Scalar;
+use super::tensor::{Vec3, add, axpy, scale};
 
 /// Lengths of a step.
 #[derive(Debug, Clone, Copy)]
@@ -24,22 +24,37 @@ pub struct Loads<S> {
     pub alpha: S,
 }
 
-/// Velocity at n+1/2 without contact.
-#[inline(always)]
-pub fn predict<S: Real>(loads: &Loads<S>, step: StepSize<S>, mass: S, f_int: Vec3<S>, v: Vec3<S>) -> Vec3<S> {
-    let a = sub(loads.gravity, scale(f_int, S::one() / mass));
-    let h = loads.alpha * step.dtm * S::from_f64(0.5);
-    scale(axpy(a, step.dtm, scale(v, S::one() - h)), S::one() / (S::one() + h))
+/// v(n+1/2) without contact as keep v(n-1/2) + push (g - f_int / m), the same for all nodes of a step.
+#[derive(Debug, Clone, Copy)]
+pub struct Prediction<S> {
+    keep: S,
+    push: S,
+    gravity: Vec3<S>,
+}
+
+impl<S: Scalar> Prediction<S> {
+    /// With h = alpha dtm / 2: keep = (1 - h)/(1 + h), push = dtm/(1 + h).
+    pub fn new(loads: &Loads<S>, step: StepSize<S>) -> Self {
+        let h = loads.alpha * step.dtm * S::from_f64(0.5);
+        let share = S::one() / (S::one() + h);
+        Prediction { keep: (S::one() - h) * share, push: step.dtm * share, gravity: loads.gravity }
+    }
+
+    #[inline(always)]
+    pub fn velocity(&self, inverse_mass: S, f_int: Vec3<S>, v: Vec3<S>) -> Vec3<S> {
+        let a = axpy(f_int, -inverse_mass, self.gravity);
+        axpy(a, self.push, scale(v, self.keep))
+    }
 }
 
 /// m (1 + alpha dtm / 2): the inertia a force of this step meets.
 #[inline(always)]
-pub fn inertia<S: Real>(loads: &Loads<S>, step: StepSize<S>, mass: S) -> S {
+pub fn inertia<S: Scalar>(loads: &Loads<S>, step: StepSize<S>, mass: S) -> S {
     mass * (S::one() + loads.alpha * step.dtm * S::from_f64(0.5))
 }
 
 /// Damping force of this step [N].
 #[inline(always)]
-pub fn damping_force<S: Real>(loads: &Loads<S>, mass: S, before: Vec3<S>, after: Vec3<S>) -> Vec3<S> {
+pub fn damping_force<S: Scalar>(loads: &Loads<S>, mass: S, before: Vec3<S>, after: Vec3<S>) -> Vec3<S> {
     scale(add(before, after), -(loads.alpha * mass * S::from_f64(0.5)))
 }

@@ -1,5 +1,6 @@
 //! The arithmetic the physics is written in.
 
+use super::lanes::{GUESS_F32, GUESS_F64};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A number, or several lanes of one. No comparisons here: the element physics has no branches.
@@ -42,10 +43,15 @@ pub trait Real: Scalar + PartialOrd {
     const EPSILON: f64;
     fn to_f64(self) -> f64;
     fn sqrt(self) -> Self;
+    /// self * a + b with one rounding; fast only in functions with the target feature.
+    fn fused(self, a: Self, b: Self) -> Self;
+    /// self^(-1/3) within 4 %, and the Newton steps that make it exact (each doubles the digits).
+    fn recip_cbrt_guess(self) -> Self;
+    const CBRT_STEPS: usize;
 }
 
 macro_rules! real {
-    ($type:ty) => {
+    ($type:ty, $steps:literal, $guess:expr) => {
         impl Scalar for $type {
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
@@ -79,8 +85,30 @@ macro_rules! real {
             fn sqrt(self) -> Self {
                 <$type>::sqrt(self)
             }
+            #[inline(always)]
+            fn fused(self, a: Self, b: Self) -> Self {
+                <$type>::mul_add(self, a, b)
+            }
+            #[inline(always)]
+            fn recip_cbrt_guess(self) -> Self {
+                $guess(self)
+            }
+            const CBRT_STEPS: usize = $steps;
         }
     };
 }
-real!(f64);
-real!(f32);
+real!(f64, 4, guess_f64);
+real!(f32, 3, guess_f32);
+
+#[inline(always)]
+fn guess_f64(x: f64) -> f64 {
+    let upper = (x.to_bits() >> 32) as i32;
+    let guess = (GUESS_F64 - f64::from(upper) * (1.0 / 3.0)) as i32;
+    f64::from_bits((guess as u64) << 32)
+}
+
+#[inline(always)]
+fn guess_f32(x: f32) -> f32 {
+    let guess = GUESS_F32 - (x.to_bits() as i32) as f32 * (1.0 / 3.0);
+    f32::from_bits(guess as i32 as u32)
+}

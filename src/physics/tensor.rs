@@ -54,6 +54,12 @@ pub fn det<S: Scalar>(a: &Mat3<S>) -> S {
     dot(a[0], cross(a[1], a[2]))
 }
 
+/// a_0 x + a_1 y + a_2 z
+#[inline(always)]
+pub fn combined<S: Scalar>(a: &Mat3<S>, x: S, y: S, z: S) -> Vec3<S> {
+    axpy(a[0], x, axpy(a[1], y, scale(a[2], z)))
+}
+
 /// A symmetric 3x3 matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sym3<S> {
@@ -69,11 +75,10 @@ impl<S: Scalar> Sym3<S> {
     /// Columns of A M.
     #[inline(always)]
     pub fn left_multiplied(&self, a: &Mat3<S>) -> Mat3<S> {
-        let column = |x, y, z| axpy(a[0], x, axpy(a[1], y, scale(a[2], z)));
         [
-            column(self.xx, self.xy, self.xz),
-            column(self.xy, self.yy, self.yz),
-            column(self.xz, self.yz, self.zz),
+            combined(a, self.xx, self.xy, self.xz),
+            combined(a, self.xy, self.yy, self.yz),
+            combined(a, self.xz, self.yz, self.zz),
         ]
     }
 

@@ -17,11 +17,11 @@ impl Formulation for Full {
         x: &Corners<S>,
         v: &Corners<S>,
     ) -> Force<S> {
-        points(law, viscosity, class, &hex8::gradients(x), v, |j| law.dU(j))
+        points::<S, L, V, true>(law, viscosity, class, &hex8::gradients(x), v, S::zero())
     }
 
     #[inline(always)]
     fn energy<S: Scalar, L: Law<S>>(law: &L, class: &Class<S>, x: &Corners<S>) -> Energy<S> {
-        pointwise_energy(law, class, &hex8::gradients(x), |j| law.U(j))
+        pointwise_energy::<S, L, true>(law, class, &hex8::gradients(x))
     }
 }

@@ -4,8 +4,9 @@
 //! dx/dxi depends on (eta, zeta) only: at the four Gauss lines it is a bilinear interpolation of the four edge
 //! differences along xi. The same (symmetric) interpolation takes force columns back to the edges.
 
+use crate::physics::lanes::Lanes;
 use crate::physics::material::{Derivatives, Law};
-use crate::physics::scalar::Scalar;
+use crate::physics::scalar::{Real, Scalar};
 use crate::physics::tensor::{Mat3, Sym3, Vec3, add, axpy, cofactor, det, dot, scale, sub};
 use crate::scene::Lumping;
 
@@ -38,22 +39,36 @@ pub const fn lines(q: usize) -> [usize; 3] {
 /// Columns of A on the Gauss lines: `columns[d][line]`.
 pub type LineColumns<S> = [[Vec3<S>; 4]; 3];
 
-/// Values on four Gauss lines from values on four edges; symmetric, so its own transpose.
 #[inline(always)]
-fn interpolate<S: Scalar>(e: [Vec3<S>; 4]) -> [Vec3<S>; 4] {
+fn mix<S: Scalar>(a: Vec3<S>, b: Vec3<S>) -> Vec3<S> {
     let near = S::from_f64(0.5 * (1.0 + GAUSS));
     let far = S::from_f64(0.5 * (1.0 - GAUSS));
-    let mix = |a: Vec3<S>, b: Vec3<S>| axpy(a, near, scale(b, far));
+    axpy(a, near, scale(b, far))
+}
+
+/// Values on four Gauss lines from values on four edges; symmetric, so its own transpose.
+#[inline(always)]
+fn interpolate<S: Scalar>(e: &[Vec3<S>; 4]) -> [Vec3<S>; 4] {
     let (a0, a1) = (mix(e[0], e[1]), mix(e[1], e[0]));
     let (b0, b1) = (mix(e[2], e[3]), mix(e[3], e[2]));
     [mix(a0, b0), mix(a1, b1), mix(b0, a0), mix(b1, a1)]
 }
 
+#[inline(always)]
+fn half_edge<S: Scalar>(x: &Corners<S>, d: usize, m: usize) -> Vec3<S> {
+    let (a, b) = EDGES[d][m];
+    scale(sub(x[b], x[a]), S::from_f64(0.5))
+}
+
+#[inline(always)]
+fn direction<S: Scalar>(x: &Corners<S>, d: usize) -> [Vec3<S>; 4] {
+    interpolate(&[half_edge(x, d, 0), half_edge(x, d, 1), half_edge(x, d, 2), half_edge(x, d, 3)])
+}
+
 /// A = dx/dxi on the Gauss lines.
 #[inline(always)]
 pub fn gradients<S: Scalar>(x: &Corners<S>) -> LineColumns<S> {
-    let half = S::from_f64(0.5);
-    EDGES.map(|edges| interpolate(edges.map(|(a, b)| scale(sub(x[b], x[a]), half))))
+    [direction(x, 0), direction(x, 1), direction(x, 2)]
 }
 
 /// A at point q.
@@ -66,8 +81,9 @@ pub fn at<S: Scalar>(columns: &LineColumns<S>, q: usize) -> Mat3<S> {
 /// Adds the force matrix of point q to the lines.
 #[inline(always)]
 pub fn accumulate<S: Scalar>(lines_force: &mut LineColumns<S>, q: usize, g: &Mat3<S>) {
-    for (d, line) in lines(q).into_iter().enumerate() {
-        lines_force[d][line] = add(lines_force[d][line], g[d]);
+    let at = lines(q);
+    for d in 0..3 {
+        lines_force[d][at[d]] = add(lines_force[d][at[d]], g[d]);
     }
 }
 
@@ -77,9 +93,10 @@ pub fn scatter<S: Scalar>(lines_force: &LineColumns<S>) -> Corners<S> {
     let half = S::from_f64(0.5);
     let mut f = [[S::zero(); 3]; 8];
     for d in 0..3 {
-        let edges = interpolate(lines_force[d]);
-        for (&(a, b), g) in EDGES[d].iter().zip(edges) {
-            let g = scale(g, half);
+        let edges = interpolate(&lines_force[d]);
+        for m in 0..4 {
+            let (a, b) = EDGES[d][m];
+            let g = scale(edges[m], half);
             f[a] = sub(f[a], g);
             f[b] = add(f[b], g);
         }
@@ -106,13 +123,19 @@ pub fn kinematics<S: Scalar, L: Law<S>>(a: &Mat3<S>, m: &Sym3<S>) -> Kinematics<
         let i1 = dot(a[0], am[0]) + dot(a[1], am[1]) + dot(a[2], am[2]);
         return Kinematics { am, gram_m: [[S::zero(); 3]; 3], i1, i2: S::zero() };
     }
-    let gram_m = am.map(|c| [dot(a[0], c), dot(a[1], c), dot(a[2], c)]);
-    let i1 = gram_m[0][0] + gram_m[1][1] + gram_m[2][2];
+    let gram_m = [gram_column(a, am[0]), gram_column(a, am[1]), gram_column(a, am[2])];
+    let n = &gram_m;
+    let i1 = n[0][0] + n[1][1] + n[2][2];
     // tr(C^2) = sum_ij N_ij N_ji with N = A^T A M
-    let square = |d: usize| gram_m[d][d] * gram_m[d][d];
-    let twice = |d: usize, e: usize| (gram_m[d][e] * gram_m[e][d]) + (gram_m[d][e] * gram_m[e][d]);
-    let trace_c2 = square(0) + square(1) + square(2) + twice(0, 1) + twice(0, 2) + twice(1, 2);
+    let diagonal = n[0][0] * n[0][0] + n[1][1] * n[1][1] + n[2][2] * n[2][2];
+    let off = n[0][1] * n[1][0] + n[0][2] * n[2][0] + n[1][2] * n[2][1];
+    let trace_c2 = diagonal + off + off;
     Kinematics { am, gram_m, i1, i2: (i1 * i1 - trace_c2) * S::from_f64(0.5) }
+}
+
+#[inline(always)]
+fn gram_column<S: Scalar>(a: &Mat3<S>, c: Vec3<S>) -> Vec3<S> {
+    [dot(a[0], c), dot(a[1], c), dot(a[2], c)]
 }
 
 /// Force matrix at a point, columns G_d with f_a = sum_d G_d dN_a/dxi_d:
@@ -127,17 +150,22 @@ pub fn force_matrix<S: Scalar, L: Law<S>>(
 ) -> Mat3<S> {
     let two = det_j0 + det_j0;
     let volumetric = d.wj + pressure;
+    let mut g = [[S::zero(); 3]; 3];
     if !L::HAS_I2 {
         let c1 = two * d.w1;
-        return [0, 1, 2].map(|c| axpy(k.am[c], c1, scale(cof[c], volumetric)));
+        for c in 0..3 {
+            g[c] = axpy(k.am[c], c1, scale(cof[c], volumetric));
+        }
+        return g;
     }
     let c2 = two * d.w2;
     let c1 = two * d.w1 + c2 * k.i1;
-    [0, 1, 2].map(|c| {
+    for c in 0..3 {
         let n = k.gram_m[c];
         let amn = axpy(k.am[0], n[0], axpy(k.am[1], n[1], scale(k.am[2], n[2])));
-        axpy(amn, -c2, axpy(k.am[c], c1, scale(cof[c], volumetric)))
-    })
+        g[c] = axpy(amn, -c2, axpy(k.am[c], c1, scale(cof[c], volumetric)));
+    }
+    g
 }
 
 /// Reference geometry shared by all elements that differ by a rigid motion only.
@@ -147,6 +175,7 @@ pub struct Class<S> {
     pub metric: [Sym3<S>; 8],
     /// det J0 at the points (the Gauss weights are one) [m3].
     pub det_j0: [S; 8],
+    pub inverse_det_j0: [S; 8],
     /// V = sum det J0 [m3], and its reciprocal.
     pub volume: S,
     pub inverse_volume: S,
@@ -157,6 +186,46 @@ pub struct Class<S> {
     /// Hourglass stiffness c G V sum_a |b_a|^2 / 8 [N/m], and the same with eta for G [N s/m].
     pub hourglass_stiffness: S,
     pub hourglass_viscosity: S,
+}
+
+impl<T: Real> Class<T> {
+    /// The same geometry in every lane.
+    #[inline(always)]
+    pub fn splat<N: Lanes<Real = T>>(&self) -> Class<N> {
+        let zero = N::zero();
+        let sym = Sym3 { xx: zero, yy: zero, zz: zero, xy: zero, xz: zero, yz: zero };
+        let mut class = Class {
+            metric: [sym; 8],
+            det_j0: [zero; 8],
+            inverse_det_j0: [zero; 8],
+            volume: N::splat(self.volume),
+            inverse_volume: N::splat(self.inverse_volume),
+            gradient: [[zero; 3]; 8],
+            gamma_x: [[zero; 3]; 4],
+            hourglass_stiffness: N::splat(self.hourglass_stiffness),
+            hourglass_viscosity: N::splat(self.hourglass_viscosity),
+        };
+        for q in 0..8 {
+            let m = &self.metric[q];
+            class.metric[q].xx = N::splat(m.xx);
+            class.metric[q].yy = N::splat(m.yy);
+            class.metric[q].zz = N::splat(m.zz);
+            class.metric[q].xy = N::splat(m.xy);
+            class.metric[q].xz = N::splat(m.xz);
+            class.metric[q].yz = N::splat(m.yz);
+            class.det_j0[q] = N::splat(self.det_j0[q]);
+            class.inverse_det_j0[q] = N::splat(self.inverse_det_j0[q]);
+            for d in 0..3 {
+                class.gradient[q][d] = N::splat(self.gradient[q][d]);
+            }
+        }
+        for h in 0..4 {
+            for d in 0..3 {
+                class.gamma_x[h][d] = N::splat(self.gamma_x[h][d]);
+            }
+        }
+        class
+    }
 }
 
 impl Class<f64> {
@@ -183,6 +252,7 @@ impl Class<f64> {
         Some(Class {
             metric,
             det_j0,
+            inverse_det_j0: det_j0.map(|d| 1.0 / d),
             volume,
             inverse_volume: 1.0 / volume,
             gradient,
@@ -215,6 +285,7 @@ impl Class<f64> {
         Class {
             metric: self.metric.map(|m| m.map(s)),
             det_j0: self.det_j0.map(s),
+            inverse_det_j0: self.inverse_det_j0.map(s),
             volume: s(self.volume),
             inverse_volume: s(self.inverse_volume),
             gradient: self.gradient.map(v),

@@ -2,7 +2,7 @@ use super::hex8::{self, Class, Corners};
 use super::{Energy, Force, Formulation};
 use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::Scalar;
-use crate::physics::tensor::{Mat3, cofactor, det, dot};
+use crate::physics::tensor::{Mat3, add, cofactor, det, dot};
 
 /// 2x2x2 points for the isochoric part, one element pressure p = U'(v/V) (Simo, Taylor & Pister's mean
 /// dilatation): no volumetric locking. v = sum det A is exact, and dv/dx_a comes from cof A.
@@ -21,14 +21,14 @@ impl Formulation for Q1p0 {
         let columns = hex8::gradients(x);
         let volume = current_volume(&columns);
         let pressure = law.dU(volume * class.inverse_volume);
-        points(law, viscosity, class, &columns, v, |_| pressure)
+        points::<S, L, V, false>(law, viscosity, class, &columns, v, pressure)
     }
 
     #[inline(always)]
     fn energy<S: Scalar, L: Law<S>>(law: &L, class: &Class<S>, x: &Corners<S>) -> Energy<S> {
         let columns = hex8::gradients(x);
         let volume = current_volume(&columns);
-        let mut energy = pointwise_energy(law, class, &columns, |_| S::zero());
+        let mut energy = pointwise_energy::<S, L, false>(law, class, &columns);
         energy.strain += class.volume * law.U(volume * class.inverse_volume);
         energy
     }
@@ -43,15 +43,15 @@ fn current_volume<S: Scalar>(columns: &hex8::LineColumns<S>) -> S {
     volume
 }
 
-/// The loop over points, with the pressure as a function of the point's J.
+/// The loop over points. `POINTWISE`: the pressure is U'(J) of the point, not the element's `mean`.
 #[inline(always)]
-pub(super) fn points<S: Scalar, L: Law<S>, V: Viscosity<S>>(
+pub(super) fn points<S: Scalar, L: Law<S>, V: Viscosity<S>, const POINTWISE: bool>(
     law: &L,
     viscosity: &V,
     class: &Class<S>,
     columns: &hex8::LineColumns<S>,
     v: &Corners<S>,
-    pressure: impl Fn(S) -> S,
+    mean: S,
 ) -> Force<S> {
     let zero = S::zero();
     let rates = if V::ON { hex8::gradients(v) } else { [[[zero; 3]; 4]; 3] };
@@ -61,10 +61,11 @@ pub(super) fn points<S: Scalar, L: Law<S>, V: Viscosity<S>>(
         let a = hex8::at(columns, q);
         let cof = cofactor(&a);
         let det_a = dot(a[0], cof[0]);
-        let j = det_a / class.det_j0[q];
+        let j = det_a * class.inverse_det_j0[q];
         let k = hex8::kinematics::<S, L>(&a, &class.metric[q]);
         let d = law.first_piola(k.i1, k.i2, j);
-        let mut g = hex8::force_matrix::<S, L>(&k, &d, pressure(j), &cof, class.det_j0[q]);
+        let pressure = if POINTWISE { law.dU(j) } else { mean };
+        let mut g = hex8::force_matrix::<S, L>(&k, &d, pressure, &cof, class.det_j0[q]);
         if V::ON {
             let (viscous, point_power) = viscosity.stress(&hex8::at(&rates, q), &cof, det_a);
             g = sum(g, viscous);
@@ -77,18 +78,18 @@ pub(super) fn points<S: Scalar, L: Law<S>, V: Viscosity<S>>(
 }
 
 #[inline(always)]
-pub(super) fn pointwise_energy<S: Scalar, L: Law<S>>(
+pub(super) fn pointwise_energy<S: Scalar, L: Law<S>, const POINTWISE: bool>(
     law: &L,
     class: &Class<S>,
     columns: &hex8::LineColumns<S>,
-    volumetric: impl Fn(S) -> S,
 ) -> Energy<S> {
     let (mut strain, mut min_j) = (S::zero(), S::from_f64(1e30));
     for q in 0..8 {
         let a = hex8::at(columns, q);
-        let j = det(&a) / class.det_j0[q];
+        let j = det(&a) * class.inverse_det_j0[q];
         let k = hex8::kinematics::<S, L>(&a, &class.metric[q]);
-        strain += class.det_j0[q] * (law.psi(k.i1, k.i2, j) + volumetric(j));
+        let volumetric = if POINTWISE { law.U(j) } else { S::zero() };
+        strain += class.det_j0[q] * (law.psi(k.i1, k.i2, j) + volumetric);
         min_j = min_j.min(j);
     }
     Energy { strain, hourglass: S::zero(), min_j }
@@ -96,5 +97,5 @@ pub(super) fn pointwise_energy<S: Scalar, L: Law<S>>(
 
 #[inline(always)]
 pub(super) fn sum<S: Scalar>(a: Mat3<S>, b: Mat3<S>) -> Mat3<S> {
-    [0, 1, 2].map(|c| crate::physics::tensor::add(a[c], b[c]))
+    [add(a[0], b[0]), add(a[1], b[1]), add(a[2], b[2])]
 }

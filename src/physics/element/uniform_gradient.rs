@@ -3,7 +3,7 @@ use super::q1p0::sum;
 use super::{Energy, Force, Formulation};
 use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::Scalar;
-use crate::physics::tensor::{Mat3, Sym3, Vec3, add, axpy, cofactor, det, dot, scale, sub};
+use crate::physics::tensor::{Mat3, Sym3, Vec3, add, axpy, cofactor, combined, det, dot, scale, sub};
 
 /// Volume-averaged gradients (Flanagan & Belytschko 1981) and hourglass stiffness on gamma-vectors formed on the
 /// reference shape, orthogonal to every affine field: a rigid rotation makes no hourglass force.
@@ -30,16 +30,20 @@ impl Formulation for UniformGradient {
         let k = hex8::kinematics::<S, L>(&f, &identity());
         let d = law.first_piola(k.i1, k.i2, j);
         let mut p = hex8::force_matrix::<S, L>(&k, &d, law.dU(j), &cof, S::one());
-        let mut hourglass = hourglass_modes(class, x, &f).map(|q| scale(q, class.hourglass_stiffness));
+        let mut hourglass = hourglass_modes(class, x, &f);
+        for q in &mut hourglass {
+            *q = scale(*q, class.hourglass_stiffness);
+        }
         let mut power = S::zero();
         if V::ON {
             let rate = mean_gradient(class, v);
             let (viscous, density) = viscosity.stress(&rate, &cof, j);
             p = sum(p, viscous);
             power += density * class.volume;
-            for (h, q) in hourglass_modes(class, v, &rate).into_iter().enumerate() {
-                hourglass[h] = axpy(q, class.hourglass_viscosity, hourglass[h]);
-                power += class.hourglass_viscosity * dot(q, q);
+            let rates = hourglass_modes(class, v, &rate);
+            for h in 0..4 {
+                hourglass[h] = axpy(rates[h], class.hourglass_viscosity, hourglass[h]);
+                power += class.hourglass_viscosity * dot(rates[h], rates[h]);
             }
         }
         Force { f: corner_forces(class, &p, &hourglass), min_j: j, viscous_power: power }
@@ -51,8 +55,9 @@ impl Formulation for UniformGradient {
         let j = det(&f);
         let k = hex8::kinematics::<S, L>(&f, &identity());
         let mut q2 = S::zero();
-        for q in hourglass_modes(class, x, &f) {
-            q2 += dot(q, q);
+        let modes = hourglass_modes(class, x, &f);
+        for q in &modes {
+            q2 += dot(*q, *q);
         }
         Energy {
             strain: class.volume * (law.psi(k.i1, k.i2, j) + law.U(j)),
@@ -86,13 +91,13 @@ fn mean_gradient<S: Scalar>(class: &Class<S>, x: &Corners<S>) -> Mat3<S> {
 #[inline(always)]
 fn hourglass_modes<S: Scalar>(class: &Class<S>, x: &Corners<S>, f: &Mat3<S>) -> [Vec3<S>; 4] {
     let mut modes = [[S::zero(); 3]; 4];
-    for (h, mode) in modes.iter_mut().enumerate() {
+    for h in 0..4 {
         for a in 1..8 {
             let u = sub(x[a], x[0]);
-            *mode = if HOURGLASS[h][a] > 0.0 { add(*mode, u) } else { sub(*mode, u) };
+            modes[h] = if HOURGLASS[h][a] > 0.0 { add(modes[h], u) } else { sub(modes[h], u) };
         }
         let g = class.gamma_x[h];
-        *mode = sub(*mode, axpy(f[0], g[0], axpy(f[1], g[1], scale(f[2], g[2]))));
+        modes[h] = sub(modes[h], combined(f, g[0], g[1], g[2]));
     }
     modes
 }
@@ -100,18 +105,18 @@ fn hourglass_modes<S: Scalar>(class: &Class<S>, x: &Corners<S>, f: &Mat3<S>) -> 
 /// f_a = V (P - sum_h r_h (x) (Gamma_h . X) / V) b_a + sum_h r_h Gamma_h,a with r_h the hourglass forces.
 #[inline(always)]
 fn corner_forces<S: Scalar>(class: &Class<S>, p: &Mat3<S>, hourglass: &[Vec3<S>; 4]) -> Corners<S> {
-    let mut p: Mat3<S> = p.map(|c| scale(c, class.volume));
-    for (r, g) in hourglass.iter().zip(&class.gamma_x) {
+    let mut p = [scale(p[0], class.volume), scale(p[1], class.volume), scale(p[2], class.volume)];
+    for h in 0..4 {
         for c in 0..3 {
-            p[c] = axpy(*r, -g[c], p[c]);
+            p[c] = axpy(hourglass[h], -class.gamma_x[h][c], p[c]);
         }
     }
     let mut f = [[S::zero(); 3]; 8];
     for a in 0..8 {
         let b = class.gradient[a];
-        f[a] = axpy(p[0], b[0], axpy(p[1], b[1], scale(p[2], b[2])));
-        for (h, r) in hourglass.iter().enumerate() {
-            f[a] = if HOURGLASS[h][a] > 0.0 { add(f[a], *r) } else { sub(f[a], *r) };
+        f[a] = combined(&p, b[0], b[1], b[2]);
+        for h in 0..4 {
+            f[a] = if HOURGLASS[h][a] > 0.0 { add(f[a], hourglass[h]) } else { sub(f[a], hourglass[h]) };
         }
     }
     f

@@ -1,5 +1,5 @@
 use crate::physics::scalar::Scalar;
-use crate::physics::tensor::{Mat3, add, axpy, dot, scale};
+use crate::physics::tensor::{Mat3, Vec3, combined, dot, scale};
 
 /// A viscous stress added to any law, or nothing.
 pub trait Viscosity<S: Scalar>: Copy + Send + Sync + 'static {
@@ -52,20 +52,27 @@ impl<S: Scalar> Viscosity<S> for KelvinVoigt<S> {
     #[inline(always)]
     fn stress(&self, a_dot: &Mat3<S>, cof: &Mat3<S>, det: S) -> (Mat3<S>, S) {
         let r = S::one() / det;
-        // L = sum_d a_dot_d (x) cof_d / det; rows of L dotted into a vector c: sum_d a_dot_d (cof_d . c) / det
-        let row = |i: usize| {
-            add(add(scale(cof[0], a_dot[0][i]), scale(cof[1], a_dot[1][i])), scale(cof[2], a_dot[2][i]))
-        };
-        let l = [scale(row(0), r), scale(row(1), r), scale(row(2), r)];
+        let l = [row(a_dot, cof, r, 0), row(a_dot, cof, r, 1), row(a_dot, cof, r, 2)];
         let trace = l[0][0] + l[1][1] + l[2][2];
         let mean = (trace + trace) * S::from_f64(1.0 / 3.0);
-        // Rows of the symmetric stress.
-        let twice = |a: S| a + a;
         let (xy, xz, yz) = (l[0][1] + l[1][0], l[0][2] + l[2][0], l[1][2] + l[2][1]);
-        let (xx, yy, zz) = (twice(l[0][0]) - mean, twice(l[1][1]) - mean, twice(l[2][2]) - mean);
-        let sigma = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]].map(|s| scale(s, self.eta));
+        let xx = l[0][0] + l[0][0] - mean;
+        let yy = l[1][1] + l[1][1] - mean;
+        let zz = l[2][2] + l[2][2] - mean;
+        let sigma =
+            [scale([xx, xy, xz], self.eta), scale([xy, yy, yz], self.eta), scale([xz, yz, zz], self.eta)];
         let power = dot(sigma[0], l[0]) + dot(sigma[1], l[1]) + dot(sigma[2], l[2]);
-        let times = |c: [S; 3]| axpy(sigma[0], c[0], axpy(sigma[1], c[1], scale(sigma[2], c[2])));
-        ([times(cof[0]), times(cof[1]), times(cof[2])], power * det)
+        let g = [
+            combined(&sigma, cof[0][0], cof[0][1], cof[0][2]),
+            combined(&sigma, cof[1][0], cof[1][1], cof[1][2]),
+            combined(&sigma, cof[2][0], cof[2][1], cof[2][2]),
+        ];
+        (g, power * det)
     }
+}
+
+/// Row i of L = sum_d a_dot_d (x) cof_d / det.
+#[inline(always)]
+fn row<S: Scalar>(a_dot: &Mat3<S>, cof: &Mat3<S>, r: S, i: usize) -> Vec3<S> {
+    scale(combined(cof, a_dot[0][i], a_dot[1][i], a_dot[2][i]), r)
 }

@@ -1,4 +1,5 @@
 use super::Road;
+use crate::physics::lanes::Lanes;
 use crate::physics::scalar::Real;
 use crate::physics::tensor::{Vec3, dot, vec3};
 
@@ -15,6 +16,15 @@ impl<S: Real> Plane<S> {
     pub fn new(point: [f64; 3], normal: [f64; 3], velocity: [f64; 3], frame: [f64; 3]) -> Self {
         let offset: f64 = (0..3).map(|d| normal[d] * (point[d] - frame[d])).sum();
         Plane { normal: vec3(normal), offset: S::from_f64(offset), velocity: vec3(velocity) }
+    }
+}
+
+impl<S: Real> Plane<S> {
+    /// The gap of several points at once.
+    #[inline(always)]
+    pub fn gap_in_lanes<N: Lanes<Real = S>>(&self, x: Vec3<N>) -> N {
+        let n = [N::splat(self.normal[0]), N::splat(self.normal[1]), N::splat(self.normal[2])];
+        dot(n, x) - N::splat(self.offset)
     }
 }
 

@@ -1,0 +1,157 @@
+use super::Lanes;
+use crate::physics::scalar::{Real, Scalar};
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// 4/3 of the exponent bias less what centres the error, in units of the upper 32 bits: x^(-1/3) has about the bits
+/// GUESS - bits(x)/3.
+pub(in crate::physics) const GUESS_F64: f64 = 1_430_195_000.0;
+pub(in crate::physics) const GUESS_F32: f32 = 1_419_909_400.0;
+
+/// Lanes as an array, which the compiler turns into vector registers. `FUSED`: multiply-adds are one instruction
+/// (the function they are inlined into has the feature); otherwise they must not be asked for.
+#[derive(Debug, Clone, Copy)]
+#[repr(transparent)]
+pub struct Array<T, const N: usize, const FUSED: bool>([T; N]);
+
+macro_rules! each {
+    ($trait:ident, $method:ident, $op:tt) => {
+        impl<T: Real, const N: usize, const F: bool> $trait for Array<T, N, F> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(mut self, other: Self) -> Self {
+                for i in 0..N {
+                    self.0[i] = self.0[i] $op other.0[i];
+                }
+                self
+            }
+        }
+    };
+}
+each!(Add, add, +);
+each!(Sub, sub, -);
+each!(Mul, mul, *);
+each!(Div, div, /);
+
+impl<T: Real, const N: usize, const F: bool> Neg for Array<T, N, F> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(mut self) -> Self {
+        for i in 0..N {
+            self.0[i] = -self.0[i];
+        }
+        self
+    }
+}
+
+impl<T: Real, const N: usize, const F: bool> AddAssign for Array<T, N, F> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<T: Real, const N: usize, const F: bool> SubAssign for Array<T, N, F> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl<T: Real, const N: usize, const FUSED: bool> Scalar for Array<T, N, FUSED> {
+    #[inline(always)]
+    fn from_f64(value: f64) -> Self {
+        Array([T::from_f64(value); N])
+    }
+
+    #[inline(always)]
+    fn mul_add(mut self, a: Self, b: Self) -> Self {
+        for i in 0..N {
+            self.0[i] = if FUSED { self.0[i].fused(a.0[i], b.0[i]) } else { self.0[i] * a.0[i] + b.0[i] };
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn recip_cbrt(self) -> Self {
+        let mut y = self;
+        for i in 0..N {
+            y.0[i] = y.0[i].recip_cbrt_guess();
+        }
+        let (third, four_thirds) = (Self::from_f64(1.0 / 3.0), Self::from_f64(4.0 / 3.0));
+        let mut n = 0;
+        while n < T::CBRT_STEPS {
+            let cube = y * y * y;
+            y = y * four_thirds - y * (third * self * cube);
+            n += 1;
+        }
+        y
+    }
+
+    #[inline(always)]
+    fn ln(mut self) -> Self {
+        for i in 0..N {
+            self.0[i] = Scalar::ln(self.0[i]);
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn min(mut self, other: Self) -> Self {
+        for i in 0..N {
+            self.0[i] = Scalar::min(self.0[i], other.0[i]);
+        }
+        self
+    }
+}
+
+impl<T: Real, const N: usize, const FUSED: bool> Lanes for Array<T, N, FUSED> {
+    type Real = T;
+    const WIDTH: usize = N;
+
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Array([value; N])
+    }
+
+    #[inline(always)]
+    unsafe fn load(slice: *const T, at: usize) -> Self {
+        unsafe { Array(slice.add(at).cast::<[T; N]>().read_unaligned()) }
+    }
+
+    #[inline(always)]
+    unsafe fn store(self, slice: *mut T, at: usize) {
+        unsafe { slice.add(at).cast::<[T; N]>().write_unaligned(self.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn gather(slice: *const T, at: &[u32]) -> Self {
+        let mut values = [T::zero(); N];
+        for (value, &i) in values.iter_mut().zip(at) {
+            *value = unsafe { *slice.add(i as usize) };
+        }
+        Array(values)
+    }
+
+    #[inline(always)]
+    fn lane(self, lane: usize) -> T {
+        self.0[lane]
+    }
+
+    #[inline(always)]
+    fn any_not_positive(self) -> bool {
+        let mut any = false;
+        for i in 0..N {
+            any |= self.0[i].partial_cmp(&T::zero()) != Some(std::cmp::Ordering::Greater);
+        }
+        any
+    }
+
+    #[inline(always)]
+    fn any_negative(self) -> bool {
+        let mut any = false;
+        for i in 0..N {
+            any |= self.0[i] < T::zero();
+        }
+        any
+    }
+}
