@@ -6,10 +6,10 @@ use common::{HELD, Outcome, explicit, press, try_run, wheel};
 use hexroll::cpu::Precision;
 use hexroll::scene::*;
 
-/// A small wheel (5 chunks of elements, 8 of nodes, so that three threads share them unevenly), pressed briefly, then
-/// rolled by a driven or a free rim.
+/// A coarse wheel (3 chunks of elements, 7 of nodes, so that threads share them unevenly, and half of the nodes are the
+/// rim's, so that they belong to more than one thread), pressed briefly, then rolled by a driven or a free rim.
 fn rolling(free: bool) -> Scene {
-    let mut scene = wheel([24, 3, 4], 0.8);
+    let mut scene = wheel([44, 1, 4], 0.8);
     scene.body.viscosity = Some(20.0);
     scene.gravity = [0.0, 0.0, -9.81];
     let down = Stage {

@@ -252,6 +252,27 @@ fn a_ring_has_one_class_a_radial_layer() {
     assert_eq!(Model::new(&block([0.03, 0.02, 0.01], [3, 4, 5])).unwrap().classes.len(), 1);
 }
 
+/// Elements of one volume but another shape have classes of their own; a turned and shifted copy has not.
+#[test]
+fn shape_classes_tell_shapes_apart() {
+    let R = rotation([0.3, -0.5, 0.8], 2.1);
+    let shapes: [&dyn Fn(Vec3<f64>) -> Vec3<f64>; 4] =
+        [&|c| c, &|c| [2.0 * c[0], 0.5 * c[1], c[2]], &|c| [c[0] + 1e-6 * c[1], c[1], c[2]], &|c| {
+            add(times(&R, c), [3.0, -2.0, 1.0])
+        }];
+    let corner = |k: u32| (0..8).map(|c| 8 * k + c).collect::<Vec<u32>>().try_into().expect("eight corners");
+    let mesh = Mesh {
+        nodes: shapes.iter().flat_map(|shape| SIGNS.map(shape)).collect(),
+        hexes: (0..4).map(corner).collect(),
+        facets: vec![],
+        rim: vec![],
+        axle: [0.0; 3],
+        surface: vec![],
+    };
+    let model = Model::from_mesh(mesh, &body(Lumping::RowSum)).unwrap();
+    assert_eq!(model.class_of, [0, 1, 2, 0]);
+}
+
 /// Any element of a class may lend its geometry: the forces of the ring's elements are those of their own geometry.
 #[test]
 fn forces_do_not_depend_on_which_element_names_the_class() {

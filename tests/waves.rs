@@ -45,8 +45,8 @@ fn travel(scene: &Scene, times: &[f64]) -> Vec<Vec<f64>> {
         driver.advance(std::iter::repeat_n(dt, count as usize)).unwrap();
         let state = driver.engine.state().unwrap();
         let mut planes = vec![0.0; 151];
-        for (X, v) in model.mesh.nodes.iter().zip(&state.v) {
-            planes[(X[0] / EDGE).round() as usize] += 0.25 * v[0] / height;
+        for (reference, v) in model.mesh.nodes.iter().zip(&state.v) {
+            planes[(reference[0] / EDGE).round() as usize] += 0.25 * v[0] / height;
         }
         fields.push(planes);
     }
