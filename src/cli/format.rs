@@ -47,6 +47,11 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
+/// A number of things: `1 picture`, `3 pictures`.
+pub fn plural(number: usize, thing: &str) -> String {
+    format!("{} {thing}{}", count(number as u64), if number == 1 { "" } else { "s" })
+}
+
 /// A whole number with thousands apart.
 pub fn count(number: u64) -> String {
     let digits = number.to_string();

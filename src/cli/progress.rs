@@ -23,7 +23,12 @@ pub struct Display {
 
 enum Shown {
     Bar(ProgressBar),
-    Lines { share: f64, at: Instant },
+    /// What the last line said, and what the next one would say.
+    Lines {
+        share: f64,
+        at: Instant,
+        next: Option<String>,
+    },
 }
 
 impl Display {
@@ -34,7 +39,7 @@ impl Display {
             let bar = ProgressBar::new(PARTS);
             Shown::Bar(bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())))
         } else {
-            Shown::Lines { share: 0.0, at: start }
+            Shown::Lines { share: 0.0, at: start, next: None }
         };
         Display { elements, start, shown }
     }
@@ -48,20 +53,23 @@ impl Display {
                 bar.set_position((share * PARTS as f64) as u64);
                 bar.set_message(text);
             }
-            Shown::Lines { share: shown, at } => {
-                let due = share >= *shown + SHARE || share >= 1.0 || at.elapsed() >= PAUSE;
-                if due {
-                    (*shown, *at) = (share, Instant::now());
-                    eprintln!("{:>3.0} %  {text}", 100.0 * share);
+            Shown::Lines { share: shown, at, next } => {
+                let line = format!("{:>3.0} %  {text}", 100.0 * share);
+                if share >= *shown + SHARE || at.elapsed() >= PAUSE {
+                    (*shown, *at, *next) = (share, Instant::now(), None);
+                    eprintln!("{line}");
+                } else {
+                    *next = Some(line);
                 }
             }
         }
     }
 
-    /// Leaves the terminal to the results.
-    pub fn finish(&self) {
-        if let Shown::Bar(bar) = &self.shown {
-            bar.finish_and_clear();
+    /// Leaves the terminal to the results; plain lines end with where the run ended.
+    pub fn finish(&mut self) {
+        match &mut self.shown {
+            Shown::Bar(bar) => bar.finish_and_clear(),
+            Shown::Lines { next, .. } => next.take().into_iter().for_each(|line| eprintln!("{line}")),
         }
     }
 }

@@ -44,7 +44,8 @@ impl<'w, 'm> Recorder<'w, 'm> {
         Recorder { writer, display: Display::new(elements), history, snapshots: 0, totals, output }
     }
 
-    pub fn finish(&self) {
+    /// Ends the display.
+    pub fn finish(&mut self) {
         self.display.finish();
     }
 }

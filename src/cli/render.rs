@@ -94,7 +94,7 @@ fn wanted(which: Which, count: usize, dir: &Path) -> Result<Vec<usize>> {
     match which {
         _ if count == 0 => missing("this run has no snapshots to draw".into()),
         Which::One(k) if k >= count => {
-            missing(format!("there is no snapshot {k}; this run has 0 to {}", count - 1))
+            missing(format!("there is no snapshot {k}; the last one of this run is {}", count - 1))
         }
         Which::One(k) => Ok(vec![k]),
         Which::Last => Ok(vec![count - 1]),

@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::SceneArgs;
 use super::choose::{self, Chosen, EngineArgs};
+use super::format::plural;
 use super::pictures::{self, Style};
 use super::recorder::{Recorder, listen_for_interrupts};
 use super::{table, warnings};
@@ -54,7 +55,7 @@ pub fn execute(args: &RunArgs) -> Result<()> {
     let out = args.out();
     let mut writer = RunWriter::create(&out, &model.mesh, Some(&text))?;
     let info = engine.info();
-    eprintln!("{}: {} {}: {reason}", scene.title, info.engine, info.precision);
+    eprintln!("{}\n{} {} ({reason})", scene.title, info.engine, info.precision);
 
     let start = Instant::now();
     let mut recorder = Recorder::new(&mut writer, model.element_count());
@@ -139,7 +140,7 @@ impl Report<'_> {
                 0
             }
         };
-        let files = format!("{snapshots} snapshots, {drawn} pictures");
+        let files = format!("{}, {}", plural(snapshots, "snapshot"), plural(drawn, "picture"));
         super::print(&table::text(&self.summary, self.out, &files))
     }
 

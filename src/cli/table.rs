@@ -43,7 +43,7 @@ fn lines(s: &Summary) -> Vec<(&'static str, String)> {
         ("balance", format!("by work done {}", balance(&s.balance))),
         ("", format!("by stored energy {}", balance(&s.stored_balance))),
     ];
-    let depth = s.worst_penetration_m.map(|d| format!("{} at worst, at the end of a window", si(d, "m")));
+    let depth = s.worst_penetration_m.map(|d| format!("at most {} at the ends of windows", si(d, "m")));
     lines.extend(depth.map(|d| ("penetration", d)));
     lines
 }
