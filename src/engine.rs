@@ -92,7 +92,7 @@ pub struct Window {
     pub rim_moment_impulse: [f64; 3],
     /// Every surface node (empty without a road).
     pub surface: Vec<SurfaceSum>,
-    /// Rim coordinates at the end of the window, and rates of the free ones.
+    /// Rim coordinates at the end of the window, and their half-step rates.
     pub rim: Coordinates,
     pub rim_rate: Coordinates,
     /// sum 1/2 m v(n-1/2)^2 [J].
@@ -139,7 +139,7 @@ pub struct EngineInfo {
 /// An explicit engine. Steps are taken exactly as planned; sums are kept from every step.
 pub trait Engine {
     fn info(&self) -> EngineInfo;
-    /// Starts a stage: damping and which rim components are free.
+    /// Starts a stage: damping and which rim components are free. A component that becomes free keeps its last rate.
     fn begin_stage(&mut self, setup: &StageSetup) -> Result<()>;
     /// Takes the steps. On failure the state is that of the failing step and the error names it.
     fn advance(&mut self, steps: &[Step]) -> Result<()>;

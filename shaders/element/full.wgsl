@@ -1,6 +1,6 @@
 // 2x2x2 points for everything; twin of src/physics/element/full.rs.
 
-fn mean_pressure(c: Columns, class: u32) -> f32 {
+fn mean_pressure(c: Columns, shape: u32) -> f32 {
     return 0.0;
 }
 
@@ -8,7 +8,7 @@ fn point_pressure(mean: f32, j: f32) -> f32 {
     return dU(j);
 }
 
-fn mean_U(c: Columns, class: u32) -> f32 {
+fn mean_U(c: Columns, shape: u32) -> f32 {
     return 0.0;
 }
 

@@ -8,20 +8,20 @@ fn outer_sum(f: mat3x3f, u: vec3f, b: vec4f) -> mat3x3f {
 }
 
 // Mean gradient and hourglass modes of a field from its differences u_a = x_a - x_0, a = 1..7 (u.a0 is not read).
-fn modes(u: Corners, class: u32) -> Modes {
-    var f = mat3x3f(u.a1 * classes[class].gradient[1].x, u.a1 * classes[class].gradient[1].y, u.a1 * classes[class].gradient[1].z);
-    f = outer_sum(f, u.a2, classes[class].gradient[2]);
-    f = outer_sum(f, u.a3, classes[class].gradient[3]);
-    f = outer_sum(f, u.a4, classes[class].gradient[4]);
-    f = outer_sum(f, u.a5, classes[class].gradient[5]);
-    f = outer_sum(f, u.a6, classes[class].gradient[6]);
-    f = outer_sum(f, u.a7, classes[class].gradient[7]);
+fn modes(u: Corners, shape: u32) -> Modes {
+    var f = mat3x3f(u.a1 * classes[shape].gradient[1].x, u.a1 * classes[shape].gradient[1].y, u.a1 * classes[shape].gradient[1].z);
+    f = outer_sum(f, u.a2, classes[shape].gradient[2]);
+    f = outer_sum(f, u.a3, classes[shape].gradient[3]);
+    f = outer_sum(f, u.a4, classes[shape].gradient[4]);
+    f = outer_sum(f, u.a5, classes[shape].gradient[5]);
+    f = outer_sum(f, u.a6, classes[shape].gradient[6]);
+    f = outer_sum(f, u.a7, classes[shape].gradient[7]);
     return Modes(
         f,
-        u.a1 - u.a2 - u.a3 - u.a4 - u.a5 + u.a6 + u.a7 - f * classes[class].gamma_x[0].xyz,
-        -u.a1 - u.a2 + u.a3 - u.a4 + u.a5 + u.a6 - u.a7 - f * classes[class].gamma_x[1].xyz,
-        -u.a1 + u.a2 - u.a3 + u.a4 - u.a5 + u.a6 - u.a7 - f * classes[class].gamma_x[2].xyz,
-        u.a1 - u.a2 + u.a3 + u.a4 - u.a5 + u.a6 - u.a7 - f * classes[class].gamma_x[3].xyz);
+        u.a1 - u.a2 - u.a3 - u.a4 - u.a5 + u.a6 + u.a7 - f * classes[shape].gamma_x[0].xyz,
+        -u.a1 - u.a2 + u.a3 - u.a4 + u.a5 + u.a6 - u.a7 - f * classes[shape].gamma_x[1].xyz,
+        -u.a1 + u.a2 - u.a3 + u.a4 - u.a5 + u.a6 - u.a7 - f * classes[shape].gamma_x[2].xyz,
+        u.a1 - u.a2 + u.a3 + u.a4 - u.a5 + u.a6 - u.a7 - f * classes[shape].gamma_x[3].xyz);
 }
 
 fn less_outer(p: mat3x3f, r: vec3f, g: vec4f) -> mat3x3f {
@@ -29,21 +29,21 @@ fn less_outer(p: mat3x3f, r: vec3f, g: vec4f) -> mat3x3f {
 }
 
 // f_a = (V P - sum_h r_h (x) Gamma_h . X) b_a + sum_h r_h Gamma_h,a
-fn corner_forces(stress: mat3x3f, r: Modes, class: u32) -> Corners {
-    var p = stress * classes[class].volume;
-    p = less_outer(p, r.h0, classes[class].gamma_x[0]);
-    p = less_outer(p, r.h1, classes[class].gamma_x[1]);
-    p = less_outer(p, r.h2, classes[class].gamma_x[2]);
-    p = less_outer(p, r.h3, classes[class].gamma_x[3]);
+fn corner_forces(stress: mat3x3f, r: Modes, shape: u32) -> Corners {
+    var p = stress * classes[shape].volume;
+    p = less_outer(p, r.h0, classes[shape].gamma_x[0]);
+    p = less_outer(p, r.h1, classes[shape].gamma_x[1]);
+    p = less_outer(p, r.h2, classes[shape].gamma_x[2]);
+    p = less_outer(p, r.h3, classes[shape].gamma_x[3]);
     return Corners(
-        p * classes[class].gradient[0].xyz + (r.h0 + r.h1 + r.h2 - r.h3),
-        p * classes[class].gradient[1].xyz + (r.h0 - r.h1 - r.h2 + r.h3),
-        p * classes[class].gradient[2].xyz + (-r.h0 - r.h1 + r.h2 - r.h3),
-        p * classes[class].gradient[3].xyz + (-r.h0 + r.h1 - r.h2 + r.h3),
-        p * classes[class].gradient[4].xyz + (-r.h0 - r.h1 + r.h2 + r.h3),
-        p * classes[class].gradient[5].xyz + (-r.h0 + r.h1 - r.h2 - r.h3),
-        p * classes[class].gradient[6].xyz + (r.h0 + r.h1 + r.h2 + r.h3),
-        p * classes[class].gradient[7].xyz + (r.h0 - r.h1 - r.h2 - r.h3));
+        p * classes[shape].gradient[0].xyz + (r.h0 + r.h1 + r.h2 - r.h3),
+        p * classes[shape].gradient[1].xyz + (r.h0 - r.h1 - r.h2 + r.h3),
+        p * classes[shape].gradient[2].xyz + (-r.h0 - r.h1 + r.h2 - r.h3),
+        p * classes[shape].gradient[3].xyz + (-r.h0 + r.h1 - r.h2 + r.h3),
+        p * classes[shape].gradient[4].xyz + (-r.h0 - r.h1 + r.h2 + r.h3),
+        p * classes[shape].gradient[5].xyz + (-r.h0 + r.h1 - r.h2 - r.h3),
+        p * classes[shape].gradient[6].xyz + (r.h0 + r.h1 + r.h2 + r.h3),
+        p * classes[shape].gradient[7].xyz + (r.h0 - r.h1 - r.h2 - r.h3));
 }
 
 struct MeanStress { p: mat3x3f, j: f32 }
@@ -55,13 +55,13 @@ fn mean_stress(f: mat3x3f) -> MeanStress {
     return MeanStress(force_matrix(f, k, first_piola(k.i1, k.i2, j), dU(j), cof, 1.0), j);
 }
 
-fn element_energy(nodes: Hex, class: u32) -> vec3f {
-    let m = modes(load_offsets(nodes), class);
+fn element_energy(nodes: Hex, shape: u32) -> vec3f {
+    let m = modes(load_offsets(nodes), shape);
     let j = determinant(m.f);
     let k = kinematics(m.f, vec3f(1.0), vec3f(0.0));
     let q2 = dot(m.h0, m.h0) + dot(m.h1, m.h1) + dot(m.h2, m.h2) + dot(m.h3, m.h3);
     return vec3f(
-        classes[class].volume * (psi(k.i1, k.i2, j) + U(j)),
-        0.5 * classes[class].hourglass_stiffness * q2,
+        classes[shape].volume * (psi(k.i1, k.i2, j) + U(j)),
+        0.5 * classes[shape].hourglass_stiffness * q2,
         j);
 }

@@ -36,25 +36,26 @@ fn move_rim(force: vec3f, moment: vec3f) {
     // Prescribed components as planned; `step.axle` and `step.axle_before` hold moves since the window began.
     var to = vec4f(step.axle.xyz, step.spin);
     let before = rim_state.at;
-    var rate = rim_state.velocity;
+    let old_rate = rim_state.velocity;
+    var rate = (to - before) / step.dt;
     if free_x {
-        let a = advanced(vec2f(before.x, rate.x), force.x + step.load.x, inverse_mass_x);
+        let a = advanced(vec2f(before.x, old_rate.x), force.x + step.load.x, inverse_mass_x);
         to.x = a.x;
         rate.x = a.y;
     }
     if free_y {
-        let a = advanced(vec2f(before.y, rate.y), force.y + step.load.y, inverse_mass_y);
+        let a = advanced(vec2f(before.y, old_rate.y), force.y + step.load.y, inverse_mass_y);
         to.y = a.x;
         rate.y = a.y;
     }
     if free_z {
-        let a = advanced(vec2f(before.z, rate.z), force.z + step.load.z, inverse_mass_z);
+        let a = advanced(vec2f(before.z, old_rate.z), force.z + step.load.z, inverse_mass_z);
         to.z = a.x;
         rate.z = a.y;
     }
     if free_spin {
         let along = dot(moment, rim_state.direction.xyz) + step.load.w;
-        let a = advanced(vec2f(before.w, rate.w), along, inverse_inertia);
+        let a = advanced(vec2f(before.w, old_rate.w), along, inverse_inertia);
         to.w = a.x;
         rate.w = a.y;
     }

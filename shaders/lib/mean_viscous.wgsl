@@ -7,15 +7,15 @@ fn rate_offsets(v: Corners) -> Corners {
         vec3f(0.0), v.a1 - v.a0, v.a2 - v.a0, v.a3 - v.a0, v.a4 - v.a0, v.a5 - v.a0, v.a6 - v.a0, v.a7 - v.a0);
 }
 
-fn element_force(nodes: Hex, class: u32) -> ElementForce {
-    let m = modes(load_offsets(nodes), class);
-    let d = modes(rate_offsets(load_velocities(nodes)), class);
+fn element_force(nodes: Hex, shape: u32) -> ElementForce {
+    let m = modes(load_offsets(nodes), shape);
+    let d = modes(rate_offsets(load_velocities(nodes)), shape);
     let s = mean_stress(m.f);
     let v = viscous_stress(m.f, d.f);
-    let k = classes[class].hourglass_stiffness;
-    let c = classes[class].hourglass_viscosity;
+    let k = classes[shape].hourglass_stiffness;
+    let c = classes[shape].hourglass_viscosity;
     let r = Modes(m.f, k * m.h0 + c * d.h0, k * m.h1 + c * d.h1, k * m.h2 + c * d.h2, k * m.h3 + c * d.h3);
     let q2 = dot(d.h0, d.h0) + dot(d.h1, d.h1) + dot(d.h2, d.h2) + dot(d.h3, d.h3);
-    let power = v.power * classes[class].volume + c * q2;
-    return ElementForce(corner_forces(s.p + v.g, r, class), s.j, power);
+    let power = v.power * classes[shape].volume + c * q2;
+    return ElementForce(corner_forces(s.p + v.g, r, shape), s.j, power);
 }

@@ -2,8 +2,8 @@
 
 struct PointForce { g: mat3x3f, min_j: f32 }
 
-fn point(a: mat3x3f, class: u32, q: u32, mean_pressure: f32) -> PointForce {
-    let geometry = classes[class].points[q];
+fn point(a: mat3x3f, shape: u32, q: u32, mean_pressure: f32) -> PointForce {
+    let geometry = classes[shape].points[q];
     let cof = cofactor(a);
     let j = dot(a[0], cof[0]) * geometry.inverse_det_j0;
     let k = kinematics(a, geometry.metric, geometry.metric_off);
@@ -15,16 +15,16 @@ fn point(a: mat3x3f, class: u32, q: u32, mean_pressure: f32) -> PointForce {
 // Forces on the lines and the smallest det F.
 struct LineForces { lines: Columns, min_j: f32 }
 
-fn internal_forces(c: Columns, class: u32) -> LineForces {
-    let p = mean_pressure(c, class);
-    let q0 = point(mat3x3f(c.xi.a, c.eta.a, c.zeta.a), class, 0u, p);
-    let q1 = point(mat3x3f(c.xi.a, c.eta.b, c.zeta.b), class, 1u, p);
-    let q2 = point(mat3x3f(c.xi.b, c.eta.a, c.zeta.c), class, 2u, p);
-    let q3 = point(mat3x3f(c.xi.b, c.eta.b, c.zeta.d), class, 3u, p);
-    let q4 = point(mat3x3f(c.xi.c, c.eta.c, c.zeta.a), class, 4u, p);
-    let q5 = point(mat3x3f(c.xi.c, c.eta.d, c.zeta.b), class, 5u, p);
-    let q6 = point(mat3x3f(c.xi.d, c.eta.c, c.zeta.c), class, 6u, p);
-    let q7 = point(mat3x3f(c.xi.d, c.eta.d, c.zeta.d), class, 7u, p);
+fn internal_forces(c: Columns, shape: u32) -> LineForces {
+    let p = mean_pressure(c, shape);
+    let q0 = point(mat3x3f(c.xi.a, c.eta.a, c.zeta.a), shape, 0u, p);
+    let q1 = point(mat3x3f(c.xi.a, c.eta.b, c.zeta.b), shape, 1u, p);
+    let q2 = point(mat3x3f(c.xi.b, c.eta.a, c.zeta.c), shape, 2u, p);
+    let q3 = point(mat3x3f(c.xi.b, c.eta.b, c.zeta.d), shape, 3u, p);
+    let q4 = point(mat3x3f(c.xi.c, c.eta.c, c.zeta.a), shape, 4u, p);
+    let q5 = point(mat3x3f(c.xi.c, c.eta.d, c.zeta.b), shape, 5u, p);
+    let q6 = point(mat3x3f(c.xi.d, c.eta.c, c.zeta.c), shape, 6u, p);
+    let q7 = point(mat3x3f(c.xi.d, c.eta.d, c.zeta.d), shape, 7u, p);
     let lines = Columns(
         Four(q0.g[0] + q1.g[0], q2.g[0] + q3.g[0], q4.g[0] + q5.g[0], q6.g[0] + q7.g[0]),
         Four(q0.g[1] + q2.g[1], q1.g[1] + q3.g[1], q4.g[1] + q6.g[1], q5.g[1] + q7.g[1]),
@@ -42,25 +42,25 @@ fn volume(c: Columns) -> f32 {
 }
 
 // (pointwise energy, smallest det F), volumetric energy by the element's own rule.
-fn point_energy(a: mat3x3f, class: u32, q: u32) -> vec2f {
-    let geometry = classes[class].points[q];
+fn point_energy(a: mat3x3f, shape: u32, q: u32) -> vec2f {
+    let geometry = classes[shape].points[q];
     let j = determinant(a) * geometry.inverse_det_j0;
     let k = kinematics(a, geometry.metric, geometry.metric_off);
     return vec2f(geometry.det_j0 * (psi(k.i1, k.i2, j) + point_U(j)), j);
 }
 
-fn element_energy(nodes: Hex, class: u32) -> vec3f {
+fn element_energy(nodes: Hex, shape: u32) -> vec3f {
     let c = gradients(load_half_edges(nodes));
-    let e0 = point_energy(mat3x3f(c.xi.a, c.eta.a, c.zeta.a), class, 0u);
-    let e1 = point_energy(mat3x3f(c.xi.a, c.eta.b, c.zeta.b), class, 1u);
-    let e2 = point_energy(mat3x3f(c.xi.b, c.eta.a, c.zeta.c), class, 2u);
-    let e3 = point_energy(mat3x3f(c.xi.b, c.eta.b, c.zeta.d), class, 3u);
-    let e4 = point_energy(mat3x3f(c.xi.c, c.eta.c, c.zeta.a), class, 4u);
-    let e5 = point_energy(mat3x3f(c.xi.c, c.eta.d, c.zeta.b), class, 5u);
-    let e6 = point_energy(mat3x3f(c.xi.d, c.eta.c, c.zeta.c), class, 6u);
-    let e7 = point_energy(mat3x3f(c.xi.d, c.eta.d, c.zeta.d), class, 7u);
+    let e0 = point_energy(mat3x3f(c.xi.a, c.eta.a, c.zeta.a), shape, 0u);
+    let e1 = point_energy(mat3x3f(c.xi.a, c.eta.b, c.zeta.b), shape, 1u);
+    let e2 = point_energy(mat3x3f(c.xi.b, c.eta.a, c.zeta.c), shape, 2u);
+    let e3 = point_energy(mat3x3f(c.xi.b, c.eta.b, c.zeta.d), shape, 3u);
+    let e4 = point_energy(mat3x3f(c.xi.c, c.eta.c, c.zeta.a), shape, 4u);
+    let e5 = point_energy(mat3x3f(c.xi.c, c.eta.d, c.zeta.b), shape, 5u);
+    let e6 = point_energy(mat3x3f(c.xi.d, c.eta.c, c.zeta.c), shape, 6u);
+    let e7 = point_energy(mat3x3f(c.xi.d, c.eta.d, c.zeta.d), shape, 7u);
     let low = min(min(e0.y, e1.y), min(e2.y, e3.y));
     let high = min(min(e4.y, e5.y), min(e6.y, e7.y));
     let sum = e0.x + e1.x + e2.x + e3.x + e4.x + e5.x + e6.x + e7.x;
-    return vec3f(sum + mean_U(c, class), 0.0, min(low, high));
+    return vec3f(sum + mean_U(c, shape), 0.0, min(low, high));
 }

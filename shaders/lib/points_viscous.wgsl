@@ -25,9 +25,9 @@ fn sum_four(a: Four, b: Four) -> Four {
     return Four(a.a + b.a, a.b + b.b, a.c + b.c, a.d + b.d);
 }
 
-fn element_force(nodes: Hex, class: u32) -> ElementForce {
+fn element_force(nodes: Hex, shape: u32) -> ElementForce {
     let columns = gradients(load_half_edges(nodes));
-    let elastic = internal_forces(columns, class);
+    let elastic = internal_forces(columns, shape);
     let viscous = viscous_forces(columns, gradients(half_edges(load_velocities(nodes))));
     let lines = Columns(
         sum_four(elastic.lines.xi, viscous.lines.xi),

@@ -15,8 +15,8 @@ fn store_position(n: u32, moved: Moved, rim: bool) {
         positions_lo[n] = vec4f(0.0);
         return;
     }
-    let flown = two_sum(positions[n].xyz, positions_lo[n].xyz + step.dt * moved.v);
-    let landed = two_sum(flown.hi, flown.lo + landing(flown, moved.touches));
+    let flown = two_sum(positions[n].xyz, positions_lo[n].xyz + step.dt * moved.v, step.pad);
+    let landed = two_sum(flown.hi, flown.lo + landing(flown, moved.touches), step.pad);
     positions[n] = vec4f(landed.hi, 0.0);
     positions_lo[n] = vec4f(landed.lo, 0.0);
 }

@@ -4,7 +4,7 @@ use clap::{Args, ValueEnum};
 
 use super::estimate::{self, Steps};
 use super::format::{duration, updates};
-use crate::cpu::CpuEngine;
+use crate::cpu;
 use crate::engine::Engine;
 use crate::gpu::{AdapterReport, Gpu, GpuEngine, adapters};
 use crate::model::Model;
@@ -146,10 +146,11 @@ pub fn choose(args: &EngineArgs, model: &Model, scene: &Scene) -> Result<Chosen>
 
 /// The CPU engine.
 pub(super) fn cpu(precision: Precision, threads: usize, model: &Model, scene: &Scene) -> Box<dyn Engine> {
-    match precision {
-        Precision::F32 => Box::new(CpuEngine::<f32>::new(model, scene, threads)),
-        Precision::F64 | Precision::F32Plus => Box::new(CpuEngine::<f64>::new(model, scene, threads)),
-    }
+    let precision = match precision {
+        Precision::F32 => cpu::Precision::F32,
+        Precision::F64 | Precision::F32Plus => cpu::Precision::F64,
+    };
+    cpu::engine(model, scene, precision, threads)
 }
 
 /// The GPU engine on the best adapter, or on the one called `name`.

@@ -215,11 +215,7 @@ impl<S: Real> Engine for CpuEngine<S> {
     }
 
     fn begin_stage(&mut self, setup: &StageSetup) -> Result<()> {
-        for component in 0..6 {
-            if setup.free[component].is_none() {
-                self.rim.rate[component] = 0.0;
-            }
-        }
+        // The rates stay: a component that is let go keeps the speed it was driven with.
         self.setup = *setup;
         Ok(())
     }
@@ -242,6 +238,8 @@ impl<S: Real> Engine for CpuEngine<S> {
         self.steps += steps.len() as u64;
         self.window_steps += steps.len() as u64;
         if let (Some(last), false) = (steps.last(), free_rim) {
+            let before = steps.iter().nth_back(1).map_or(self.rim.q, |s| s.rim);
+            self.rim.rate = std::array::from_fn(|c| (last.rim[c] - before[c]) / last.dt);
             self.rim.q = last.rim;
         }
         Ok(())

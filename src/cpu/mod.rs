@@ -10,3 +10,23 @@ mod team;
 
 pub use elements::element_forces;
 pub use engine::CpuEngine;
+
+use crate::engine::Engine;
+use crate::model::Model;
+use crate::scene::Scene;
+
+/// Floating-point type of the CPU engine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Precision {
+    F64,
+    F32,
+}
+
+/// A CPU engine at rest in the reference shape. `threads` = 0: all cores. Compiled once, here: callers do not each
+/// instantiate every kernel.
+pub fn engine(model: &Model, scene: &Scene, precision: Precision, threads: usize) -> Box<dyn Engine> {
+    match precision {
+        Precision::F64 => Box::new(CpuEngine::<f64>::new(model, scene, threads)),
+        Precision::F32 => Box::new(CpuEngine::<f32>::new(model, scene, threads)),
+    }
+}

@@ -7,7 +7,7 @@ use glam::DVec3;
 /// State of the rim.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RimState {
-    /// Coordinates at t(n), and half-step rates of the free ones.
+    /// Coordinates at t(n), and their half-step rates.
     pub q: Coordinates,
     pub rate: Coordinates,
     /// Mass of the rim nodes [kg] and their inertia about the axle [kg m2].
@@ -37,7 +37,10 @@ impl RimState {
     ) -> (Coordinates, Coordinates) {
         let (mut q, mut rate) = (step.rim, self.rate);
         for component in 0..6 {
-            let Some(own) = setup.free[component] else { continue };
+            let Some(own) = setup.free[component] else {
+                rate[component] = (q[component] - self.q[component]) / step.dt;
+                continue;
+            };
             let (inertia, push) = if component == SPIN {
                 let along = rim::axle_direction(&self.q).dot(DVec3::from(reaction.moment));
                 (own + self.node_inertia, along)

@@ -31,6 +31,7 @@ shaders!(
     "element/q1p0",
     "element/uniform_gradient",
     "friction/coulomb",
+    "kernels/check_sums",
     "kernels/element_energy",
     "kernels/element_force",
     "kernels/gather",
@@ -91,6 +92,7 @@ pub enum Kernel {
     Gather,
     Reduce,
     Rebase,
+    CheckSums,
 }
 
 /// How the rim moves in a stage.
@@ -133,6 +135,7 @@ impl Choice {
             Kernel::Reduce => vec!["kernels/reduce"],
             Kernel::Rebase if self.plus => vec!["kernels/rebase_plus", "lib/index", "lib/two_sum"],
             Kernel::Rebase => vec!["kernels/rebase", "lib/index"],
+            Kernel::CheckSums => vec!["kernels/check_sums", "lib/two_sum"],
         }
     }
 

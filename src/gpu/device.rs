@@ -123,4 +123,15 @@ impl Gpu {
             .map_err(|e| Error::Device { adapter: report.name.clone(), detail: e.to_string() })?;
         Ok(Gpu { device, queue, report })
     }
+
+    /// An error of this adapter.
+    pub fn error(&self, detail: String) -> Error {
+        Error::Device { adapter: self.report.name.clone(), detail }
+    }
+
+    /// Waits until everything submitted is done.
+    pub fn wait(&self) -> Result<()> {
+        let done = self.device.poll(wgpu::PollType::wait_indefinitely());
+        done.map(|_| ()).map_err(|e| self.error(e.to_string()))
+    }
 }

@@ -1,9 +1,15 @@
 //! The GPU engine: the explicit loop as WGSL compute shaders.
 
+mod buffers;
+mod check;
 pub mod compose;
 mod device;
 mod engine;
 pub mod layout;
+pub mod program;
+mod readback;
+mod rim;
+mod stage;
 
 pub use device::{AdapterReport, Gpu, adapters};
 pub use engine::GpuEngine;

@@ -183,7 +183,7 @@ impl<'a> Run<'a> {
         for n in 1..=count {
             let window_end = if n == count { end } else { start + n as f64 * sample };
             let window = self.window(stage, window_end)?;
-            let settled = self.has_settled(stage, &window);
+            let settled = self.has_settled(stage, &window)?;
             let last = n == count || settled;
             let written = self.snapshots(stage, &window, last)?;
             if self.observer.interrupted() {
@@ -212,7 +212,12 @@ impl<'a> Run<'a> {
 
     /// The rigid velocity of the rim's motion for every node, and for the rim's free components.
     fn start_with_rim(&mut self, time: f64) -> Result<()> {
-        let rate = self.motion.rate_at(time);
+        let mut rate = self.motion.rate_at(time);
+        for (component, free) in self.motion.setup(0.0).free.iter().enumerate() {
+            if free.is_some() {
+                rate[component] = self.rim_rate[component];
+            }
+        }
         let omega = rim::angular_velocity(&self.rim, &rate);
         let (axle, velocity) = (rim::axle(&self.rim), rim::axle(&rate));
         self.rim_rate = rate;
@@ -273,15 +278,40 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn has_settled(&mut self, stage: &Stage, window: &Window) -> bool {
-        let Method::QuasiStatic { kinetic_ratio, residual } = stage.method else { return false };
+    fn has_settled(&mut self, stage: &Stage, window: &Window) -> Result<bool> {
+        let Method::QuasiStatic { kinetic_ratio, residual } = stage.method else { return Ok(false) };
         let ratio = |a: f64, b: f64| if b > 0.0 { a / b } else { f64::INFINITY };
         self.last_ratios = [
             ratio(window.kinetic, window.strain),
             ratio(window.probe.net_force, window.probe.internal_force),
         ];
-        let over = self.totals.time >= self.motion.settled_after();
-        over && self.last_ratios[0] <= kinetic_ratio && self.last_ratios[1] <= residual
+        if self.totals.time < self.motion.settled_after() || self.last_ratios[0] > kinetic_ratio {
+            return Ok(false);
+        }
+        Ok(self.last_ratios[1] <= residual || window.probe.net_force <= self.rounding_force()?)
+    }
+
+    /// Net force that rounding the positions of this engine leaves [N]: no residual can be asked to be smaller. Twice
+    /// what moving every coordinate by half a unit in the last place does, one way or the other; 0 in double precision.
+    fn rounding_force(&mut self) -> Result<f64> {
+        if self.engine.info().precision == "f64" {
+            return Ok(0.0);
+        }
+        let mesh = &self.model.mesh;
+        let reach = |x: &[f64; 3]| (0..3).map(|d| (x[d] - mesh.axle[d]).abs()).fold(0.0, f64::max);
+        let half_unit = 0.5 * f64::from(f32::EPSILON) * mesh.nodes.iter().map(reach).fold(0.0, f64::max);
+        let x = self.engine.state()?.x;
+        let still = vec![[0.0; 3]; x.len()];
+        let mut sign = 1u32;
+        let mut nudged = x.clone();
+        for c in nudged.iter_mut().flatten() {
+            sign = sign.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            *c += if sign >> 31 == 0 { half_unit } else { -half_unit };
+        }
+        let (f, g) = (self.engine.force(&x, &still)?, self.engine.force(&nudged, &still)?);
+        let free = (0..x.len()).filter(|&n| mesh.rim.binary_search(&(n as u32)).is_err());
+        let square = |n: usize| (0..3).map(|d| (f[n][d] - g[n][d]).powi(2)).sum::<f64>();
+        Ok(2.0 * free.map(square).sum::<f64>().sqrt())
     }
 
     /// Hands out a snapshot if one is due; whether it was.

@@ -61,14 +61,14 @@ impl GpuPlan {
     pub fn of(scene: &Scene, model: &Model) -> Result<GpuPlan> {
         let mut programs: Vec<Program> = Vec::new();
         for (kernel, runs) in scene_kernels(scene) {
-            programs.push(program(&choice(scene, &StageSetup::default()), kernel, runs)?);
+            programs.push(program(&choice(scene), kernel, runs)?);
         }
         for stage in &scene.stages {
             let free = stage.rim.drives().map(|d| match d {
                 Drive::Free { mass, .. } => Some(mass),
                 _ => None,
             });
-            let choice = choice(scene, &StageSetup { mass_damping: stage.mass_damping, free });
+            let choice = choice(scene).for_stage(&StageSetup { mass_damping: stage.mass_damping, free });
             for (kernel, runs) in stage_kernels(&choice) {
                 let new = program(&choice, kernel, runs)?;
                 match programs.iter_mut().find(|p| p.parts == new.parts) {
@@ -82,8 +82,8 @@ impl GpuPlan {
     }
 }
 
-/// What a stage needs.
-fn choice(scene: &Scene, setup: &StageSetup) -> Choice {
+/// What the scene needs, whatever the stage.
+fn choice(scene: &Scene) -> Choice {
     Choice {
         element: scene.body.element,
         law: scene.body.law,
@@ -91,12 +91,8 @@ fn choice(scene: &Scene, setup: &StageSetup) -> Choice {
         road: scene.road.is_some(),
         friction: scene.friction.is_some(),
         gravity: scene.gravity != [0.0; 3],
-        damping: setup.mass_damping > 0.0,
-        rim: match scene.rim {
-            None => RimKind::None,
-            Some(_) if setup.free.iter().any(Option::is_some) => RimKind::Free,
-            Some(_) => RimKind::Prescribed,
-        },
+        damping: false,
+        rim: if scene.rim.is_some() { RimKind::Prescribed } else { RimKind::None },
         plus: false,
     }
 }

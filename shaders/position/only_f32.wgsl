@@ -1,5 +1,0 @@
-@group(0) @binding(10) var<storage, read> positions: array<vec4f>;
-
-fn load_position(n: u32) -> vec3f {
-    return positions[n].xyz;
-}

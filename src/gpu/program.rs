@@ -1,0 +1,138 @@
+//! Compute pipelines from composed modules, with their bindings as naga reflects them.
+
+use super::Gpu;
+use super::compose::{Choice, Kernel};
+use super::layout::Step;
+use crate::error::Result;
+
+/// A binding of a composed module.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Binding {
+    pub name: String,
+    pub index: u32,
+    pub kind: BindingKind,
+}
+
+/// What is bound.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BindingKind {
+    Storage {
+        writes: bool,
+    },
+    /// The plan's uniform, at a dynamic offset: one step after the other.
+    Step,
+    Uniform,
+}
+
+/// Bindings of a module, by index.
+pub fn bindings(module: &naga::Module) -> Vec<Binding> {
+    let binding = |v: &naga::GlobalVariable| {
+        let kind = match v.space {
+            naga::AddressSpace::Storage { access } => {
+                BindingKind::Storage { writes: access.contains(naga::StorageAccess::STORE) }
+            }
+            naga::AddressSpace::Uniform if v.name.as_deref() == Some("step") => BindingKind::Step,
+            naga::AddressSpace::Uniform => BindingKind::Uniform,
+            _ => return None,
+        };
+        Some(Binding { name: v.name.clone()?, index: v.binding?.binding, kind })
+    };
+    let mut all: Vec<Binding> = module.global_variables.iter().filter_map(|(_, v)| binding(v)).collect();
+    all.sort_by_key(|b| b.index);
+    all
+}
+
+/// A pipeline and what it binds.
+pub struct Program {
+    pub pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+    pub bindings: Vec<Binding>,
+}
+
+impl Program {
+    /// Composes and compiles a kernel; of `constants` those the module declares are set.
+    pub fn new(gpu: &Gpu, choice: &Choice, kernel: Kernel, constants: &[(&str, f64)]) -> Result<Program> {
+        let module = choice.module(kernel)?;
+        let bindings = bindings(&module);
+        let declared = |name: &str| module.overrides.iter().any(|(_, o)| o.name.as_deref() == Some(name));
+        let constants: Vec<(&str, f64)> = constants.iter().copied().filter(|(n, _)| declared(n)).collect();
+        let label = format!("{kernel:?}");
+        let entries: Vec<wgpu::BindGroupLayoutEntry> = bindings.iter().map(layout_entry).collect();
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(&label),
+            entries: &entries,
+        });
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(&label),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let descriptor = wgpu::ShaderModuleDescriptor {
+            label: Some(&label),
+            source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(module.clone())),
+        };
+        // Bounds checks and loop guards cost a good part of a memory-bound kernel; debug builds (the tests) keep them.
+        let checks = if cfg!(debug_assertions) {
+            wgpu::ShaderRuntimeChecks::checked()
+        } else {
+            wgpu::ShaderRuntimeChecks::unchecked()
+        };
+        // SAFETY: every index a kernel uses comes from the model's own tables (connectivity, corners, roles), which
+        // are built to the sizes of the buffers they index, or is compared with arrayLength; loops run over them.
+        let shader = unsafe { gpu.device.create_shader_module_trusted(descriptor, checks) };
+        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(&label),
+            layout: Some(&pipeline_layout),
+            module: &shader,
+            entry_point: Some("main"),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                zero_initialize_workgroup_memory: false,
+            },
+            cache: None,
+        });
+        Ok(Program { pipeline, layout, bindings })
+    }
+
+    /// A bind group with the buffer that `of` names for each binding.
+    pub fn bind<'b>(&self, gpu: &Gpu, of: impl Fn(&str) -> &'b wgpu::Buffer) -> wgpu::BindGroup {
+        let entry = |b: &Binding| {
+            let buffer = of(&b.name);
+            let size = match b.kind {
+                BindingKind::Step => wgpu::BufferSize::new(size_of::<Step>() as u64),
+                _ => None,
+            };
+            let resource = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size });
+            wgpu::BindGroupEntry { binding: b.index, resource }
+        };
+        let entries: Vec<wgpu::BindGroupEntry> = self.bindings.iter().map(entry).collect();
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &self.layout,
+            entries: &entries,
+        })
+    }
+
+    /// Whether it reads the plan of steps.
+    pub fn has_step(&self) -> bool {
+        self.bindings.iter().any(|b| b.kind == BindingKind::Step)
+    }
+}
+
+fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {
+    let (ty, dynamic, size) = match binding.kind {
+        BindingKind::Storage { writes } => {
+            (wgpu::BufferBindingType::Storage { read_only: !writes }, false, None)
+        }
+        BindingKind::Step => {
+            (wgpu::BufferBindingType::Uniform, true, wgpu::BufferSize::new(size_of::<Step>() as u64))
+        }
+        BindingKind::Uniform => (wgpu::BufferBindingType::Uniform, false, None),
+    };
+    wgpu::BindGroupLayoutEntry {
+        binding: binding.index,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: dynamic, min_binding_size: size },
+        count: None,
+    }
+}

@@ -1,0 +1,126 @@
+//! Programs that depend on the stage: the node pass, its probe, and the free rim.
+
+use super::Gpu;
+use super::buffers::Buffers;
+use super::compose::{Choice, Kernel, RimKind};
+use super::engine::canonical;
+use super::program::Program;
+use super::rim::FreeRim;
+use crate::engine::StageSetup;
+use crate::error::Result;
+use crate::model::Model;
+use crate::physics::rim::SPIN;
+
+/// A program with its buffers.
+pub struct Bound {
+    program: Program,
+    group: wgpu::BindGroup,
+}
+
+impl Bound {
+    pub fn new<'b>(gpu: &Gpu, program: Program, of: impl Fn(&str) -> &'b wgpu::Buffer) -> Bound {
+        let group = program.bind(gpu, of);
+        Bound { program, group }
+    }
+
+    /// Records one dispatch; `offset` into the plan is not read by programs without a step.
+    pub fn dispatch(&self, pass: &mut wgpu::ComputePass, groups: [u32; 3], offset: u32) {
+        pass.set_pipeline(&self.program.pipeline);
+        let offsets: &[u32] = if self.program.has_step() { &[offset] } else { &[] };
+        pass.set_bind_group(0, &self.group, offsets);
+        pass.dispatch_workgroups(groups[0], groups[1], groups[2]);
+    }
+}
+
+/// The stage's programs.
+pub struct StagePrograms {
+    pub node: Bound,
+    pub probe: Bound,
+    /// Free rim: its step, and the same on a copy of its state for the probe.
+    pub rim: Option<Bound>,
+    pub probe_rim: Option<Bound>,
+}
+
+impl StagePrograms {
+    pub fn new(
+        gpu: &Gpu,
+        choice: &Choice,
+        constants: &[(&'static str, f64)],
+        buffers: &Buffers,
+        setup: &StageSetup,
+        model: &Model,
+    ) -> Result<StagePrograms> {
+        compose(gpu, choice, constants, buffers, setup, &FreeRim::new(model))
+    }
+
+    /// The same for another stage.
+    pub fn rebuilt(
+        &self,
+        gpu: &Gpu,
+        choice: &Choice,
+        constants: &[(&'static str, f64)],
+        buffers: &Buffers,
+        setup: &StageSetup,
+        rim: &FreeRim,
+    ) -> Result<StagePrograms> {
+        compose(gpu, choice, constants, buffers, setup, rim)
+    }
+
+    pub fn has_free_rim(&self) -> bool {
+        self.rim.is_some()
+    }
+}
+
+impl Choice {
+    /// What a stage makes of the scene's choice.
+    pub fn for_stage(&self, setup: &StageSetup) -> Choice {
+        let free = setup.free.iter().any(Option::is_some);
+        let rim = match self.rim {
+            RimKind::None => RimKind::None,
+            _ if free => RimKind::Free,
+            _ => RimKind::Prescribed,
+        };
+        Choice { damping: setup.mass_damping > 0.0, rim, ..*self }
+    }
+}
+
+fn compose(
+    gpu: &Gpu,
+    choice: &Choice,
+    constants: &[(&'static str, f64)],
+    buffers: &Buffers,
+    setup: &StageSetup,
+    rim: &FreeRim,
+) -> Result<StagePrograms> {
+    let choice = choice.for_stage(setup);
+    let mut constants = constants.to_vec();
+    constants.extend([("alpha", setup.mass_damping), ("rim_alpha", setup.mass_damping)]);
+    let translations = ["free_x", "free_y", "free_z"].into_iter().zip([
+        "inverse_mass_x",
+        "inverse_mass_y",
+        "inverse_mass_z",
+    ]);
+    for (component, (free, inverse)) in translations.enumerate() {
+        let own = setup.free[component];
+        constants.push((free, f64::from(u8::from(own.is_some()))));
+        constants.push((inverse, own.map_or(0.0, |m| 1.0 / (m + rim.node_mass))));
+    }
+    constants.push(("free_spin", f64::from(u8::from(setup.free[SPIN].is_some()))));
+    constants.push(("inverse_inertia", setup.free[SPIN].map_or(0.0, |i| 1.0 / (i + rim.node_inertia))));
+    let program = |kernel| Program::new(gpu, &choice, kernel, &constants);
+    let of = |name: &str| buffers.get(canonical(name));
+    let of_probe =
+        |name: &str| buffers.get(if name == "rim_state" { "rim_state_probe" } else { canonical(name) });
+    let (rim, probe_rim) = if choice.rim == RimKind::Free {
+        let rim = Bound::new(gpu, program(Kernel::Rim)?, of);
+        (Some(rim), Some(Bound::new(gpu, program(Kernel::Rim)?, of_probe)))
+    } else {
+        (None, None)
+    };
+    Ok(StagePrograms {
+        node: Bound::new(gpu, program(Kernel::Node)?, of),
+        probe: Bound::new(gpu, program(Kernel::NodeProbe)?, of_probe),
+        rim,
+        probe_rim,
+    })
+}

@@ -1,0 +1,354 @@
+//! The element formulations: forces from energies, rigid motion, balance, shape classes, mass.
+#![allow(non_snake_case)] // X, R: the field's own symbols
+
+mod common;
+
+use common::{ELEMENTS, G, LAWS, Random, block, close, largest, times, wheel};
+use hexroll::model::Model;
+use hexroll::model::mesh::{Mesh, SIGNS};
+use hexroll::physics::element::{Class, Corners, Energy, Force, Formulation, Full, Q1p0, UniformGradient};
+use hexroll::physics::material::{
+    Inviscid, KelvinVoigt, Law as Material, MooneyRivlin, MooneyRivlinEq4, NeoHookean, Viscosity,
+};
+use hexroll::physics::tensor::{Mat3, Vec3, add, cross, dot};
+use hexroll::scene::{Body, Element, Law, Lumping};
+
+const EDGE: f64 = 2e-3;
+const ETA: f64 = 20.0;
+const HOURGLASS: f64 = 0.15;
+
+fn force_of<F: Formulation, L: Material<f64>>(
+    law: &Law,
+    c: &Class<f64>,
+    x: &Corners<f64>,
+    v: Option<&Corners<f64>>,
+) -> Force<f64> {
+    let still = [[0.0; 3]; 8];
+    match v {
+        None => F::force(&L::new(law), &<Inviscid as Viscosity<f64>>::new(0.0), c, x, &still),
+        Some(v) => F::force(&L::new(law), &KelvinVoigt::new(ETA), c, x, v),
+    }
+}
+
+/// Runs `$function::<formulation, law>` for the choices of a scene.
+macro_rules! composed {
+    ($element:expr, $law:expr, $function:ident($($argument:expr),*)) => {
+        match ($element, $law) {
+            (Element::Q1p0, Law::NeoHookean { .. }) => $function::<Q1p0, NeoHookean<f64>>($($argument),*),
+            (Element::Q1p0, Law::MooneyRivlin { .. }) => $function::<Q1p0, MooneyRivlin<f64>>($($argument),*),
+            (Element::Q1p0, Law::MooneyRivlinEq4 { .. }) => $function::<Q1p0, MooneyRivlinEq4<f64>>($($argument),*),
+            (Element::Full, Law::NeoHookean { .. }) => $function::<Full, NeoHookean<f64>>($($argument),*),
+            (Element::Full, Law::MooneyRivlin { .. }) => $function::<Full, MooneyRivlin<f64>>($($argument),*),
+            (Element::Full, Law::MooneyRivlinEq4 { .. }) => $function::<Full, MooneyRivlinEq4<f64>>($($argument),*),
+            (_, Law::NeoHookean { .. }) => $function::<UniformGradient, NeoHookean<f64>>($($argument),*),
+            (_, Law::MooneyRivlin { .. }) => $function::<UniformGradient, MooneyRivlin<f64>>($($argument),*),
+            (_, Law::MooneyRivlinEq4 { .. }) => $function::<UniformGradient, MooneyRivlinEq4<f64>>($($argument),*),
+        }
+    };
+}
+
+fn force(
+    element: Element,
+    law: &Law,
+    c: &Class<f64>,
+    x: &Corners<f64>,
+    v: Option<&Corners<f64>>,
+) -> Force<f64> {
+    composed!(element, law, force_of(law, c, x, v))
+}
+
+fn energy_of<F: Formulation, L: Material<f64>>(law: &Law, c: &Class<f64>, x: &Corners<f64>) -> Energy<f64> {
+    F::energy(&L::new(law), c, x)
+}
+
+fn energy(element: Element, law: &Law, c: &Class<f64>, x: &Corners<f64>) -> Energy<f64> {
+    composed!(element, law, energy_of(law, c, x))
+}
+
+/// A cube of `EDGE` with every corner moved by up to 15 % of it.
+fn distorted(random: &mut Random) -> Corners<f64> {
+    SIGNS.map(|s| {
+        let by = random.vector();
+        std::array::from_fn(|d| EDGE * (0.5 * s[d] + 0.15 * by[d]))
+    })
+}
+
+/// The element deformed by some 10 %, affinely and not.
+fn deformed(random: &mut Random, X: &Corners<f64>) -> Corners<f64> {
+    let F = random.near_identity(0.1);
+    X.map(|x| {
+        let by = random.vector();
+        std::array::from_fn(|d| times(&F, x)[d] + 0.05 * EDGE * by[d])
+    })
+}
+
+fn class(X: &Corners<f64>) -> Class<f64> {
+    Class::new(X, HOURGLASS * G, HOURGLASS * ETA).expect("a valid element")
+}
+
+/// Rotation about a unit axis (Rodrigues), columns.
+fn rotation(axis: Vec3<f64>, angle: f64) -> Mat3<f64> {
+    let n = axis.map(|a| a / dot(axis, axis).sqrt());
+    let turned = |e: Vec3<f64>| -> Vec3<f64> {
+        let (sin, cos) = angle.sin_cos();
+        let c = cross(n, e);
+        std::array::from_fn(|i| cos * e[i] + sin * c[i] + (1.0 - cos) * dot(n, e) * n[i])
+    };
+    [turned([1.0, 0.0, 0.0]), turned([0.0, 1.0, 0.0]), turned([0.0, 0.0, 1.0])]
+}
+
+/// Every formulation with every law.
+fn combinations() -> impl Iterator<Item = (Element, Law)> {
+    ELEMENTS.into_iter().flat_map(|e| LAWS.into_iter().map(move |l| (e, l)))
+}
+
+/// Corner forces are the gradient of the stored energy, hourglass energy included.
+#[test]
+fn force_is_the_gradient_of_the_energy() {
+    let mut random = Random::new(11);
+    let X = distorted(&mut random);
+    let (c, x) = (class(&X), deformed(&mut random, &X));
+    for (element, law) in combinations() {
+        let f = force(element, &law, &c, &x, None).f;
+        let scale = largest(&f);
+        // Central differences: truncation (h/EDGE)^2 = 1e-10 of the stiffness, a few times the force's scale;
+        // rounding 1e-16 W/h.
+        let h = 1e-5 * EDGE;
+        for (a, d) in (0..24).map(|k| (k / 3, k % 3)) {
+            let moved = |s: f64| {
+                let mut x = x;
+                x[a][d] += s;
+                let e = energy(element, &law, &c, &x);
+                e.strain + e.hourglass
+            };
+            let difference = (moved(h) - moved(-h)) / (2.0 * h);
+            let error = (f[a][d] - difference).abs();
+            assert!(
+                error < 1e-8 * scale,
+                "{element:?} {law:?} corner {a} direction {d}: off by {:e}",
+                error / scale
+            );
+        }
+        let e = energy(element, &law, &c, &x);
+        assert_eq!(e.hourglass > 0.0, matches!(element, Element::UniformGradient { .. }));
+        assert!(e.strain > 0.0 && e.min_j > 0.0);
+    }
+}
+
+/// A viscous element's force does exactly the power it reports, which is never negative.
+#[test]
+fn viscous_power_is_the_work_of_the_viscous_force() {
+    let mut random = Random::new(12);
+    for _ in 0..20 {
+        let X = distorted(&mut random);
+        let (c, x) = (class(&X), deformed(&mut random, &X));
+        let v: Corners<f64> = std::array::from_fn(|_| random.vector());
+        for (element, law) in combinations() {
+            let (with, without) =
+                (force(element, &law, &c, &x, Some(&v)), force(element, &law, &c, &x, None));
+            let work: f64 = (0..8).map(|a| dot(with.f[a], v[a]) - dot(without.f[a], v[a])).sum();
+            assert!(with.viscous_power >= 0.0);
+            // The elastic force, subtracted, is up to 1e3 times larger: its round-off.
+            let tolerance = 1e-13 * largest(&with.f).max(largest(&without.f));
+            assert!(
+                (work - with.viscous_power).abs() < tolerance,
+                "{element:?}: {work} {}",
+                with.viscous_power
+            );
+        }
+    }
+}
+
+/// A turn by 90 degrees, or by any angle, with a shift makes no force and no hourglass energy, spinning no viscous force.
+#[test]
+fn a_rigid_motion_makes_no_force() {
+    let mut random = Random::new(13);
+    let X = distorted(&mut random);
+    let c = class(&X);
+    for (axis, angle) in [([0.0, 1.0, 0.0], std::f64::consts::FRAC_PI_2), ([0.3, -0.5, 0.8], 2.1)] {
+        let R = rotation(axis, angle);
+        let shift = random.vector().map(|s| 10.0 * EDGE * s);
+        let x = X.map(|X| add(times(&R, X), shift));
+        let spin = random.vector();
+        let v = x.map(|x| cross(spin, x));
+        for (element, law) in combinations() {
+            // Round-off of coordinates of 10 EDGE in strain (1e-15), times the bulk modulus and the face area.
+            let scale = 65e6 * EDGE * EDGE;
+            let elastic = force(element, &law, &c, &x, None).f;
+            assert!(
+                largest(&elastic) < 2e-14 * scale,
+                "{element:?} {law:?}: {:e}",
+                largest(&elastic) / scale
+            );
+            let viscous = force(element, &law, &c, &x, Some(&v)).f;
+            assert!(
+                largest(&viscous) < 2e-14 * scale,
+                "{element:?} {law:?}: {:e}",
+                largest(&viscous) / scale
+            );
+            let e = energy(element, &law, &c, &x);
+            assert!(e.hourglass < 1e-28 * scale * EDGE && e.strain.abs() < 1e-14 * scale * EDGE, "{e:?}");
+        }
+    }
+}
+
+/// Forces turn with a stressed element, viscous ones too.
+#[test]
+fn a_rotation_turns_the_forces_of_a_stressed_element() {
+    let mut random = Random::new(14);
+    let X = distorted(&mut random);
+    let (c, x) = (class(&X), deformed(&mut random, &X));
+    let v: Corners<f64> = std::array::from_fn(|_| random.vector());
+    for (axis, angle) in [([0.0, 1.0, 0.0], std::f64::consts::FRAC_PI_2), ([0.3, -0.5, 0.8], 2.1)] {
+        let R = rotation(axis, angle);
+        for (element, law) in combinations() {
+            let f = force(element, &law, &c, &x, Some(&v)).f;
+            let turned = force(element, &law, &c, &x.map(|x| times(&R, x)), Some(&v.map(|v| times(&R, v)))).f;
+            // Round-off of the bulk modulus, which is some ten times the stress.
+            let tolerance = 1e-13 * largest(&f);
+            for (f, t) in f.iter().zip(&turned) {
+                let expected = times(&R, *f);
+                assert!(
+                    (0..3).all(|d| (expected[d] - t[d]).abs() < tolerance),
+                    "{element:?} {law:?}: {t:?} {expected:?}"
+                );
+            }
+        }
+    }
+}
+
+/// An element's forces and their moments add up to nothing, with hourglass forces, and with viscosity where it is
+/// objective: the viscous partner of the hourglass stiffness acts on the rates of the hourglass modes in fixed axes,
+/// so it sees the turning of an hourglass-deformed element and its forces, not its moments, vanish.
+#[test]
+fn forces_and_moments_of_an_element_vanish() {
+    let mut random = Random::new(15);
+    let X = distorted(&mut random);
+    let (c, x) = (class(&X), deformed(&mut random, &X));
+    let v: Corners<f64> = std::array::from_fn(|_| random.vector());
+    for (element, law) in combinations() {
+        let viscous = force(element, &law, &c, &x, Some(&v)).f;
+        let total = viscous.iter().fold([0.0; 3], |sum, f| add(sum, *f));
+        let objective = !matches!(element, Element::UniformGradient { .. });
+        let f = if objective { viscous } else { force(element, &law, &c, &x, None).f };
+        let moment = x.iter().zip(&f).fold([0.0; 3], |sum, (x, f)| add(sum, cross(*x, *f)));
+        // Two dozen round-offs.
+        assert!(largest([&total]) < 1e-14 * largest(&f), "{element:?} {law:?}: {total:?}");
+        assert!(largest([&moment]) < 1e-14 * EDGE * largest(&f), "{element:?} {law:?}: {moment:?}");
+    }
+}
+
+/// The elements of a ring have one shape class a radial layer, those of a block one.
+#[test]
+fn a_ring_has_one_class_a_radial_layer() {
+    let model = Model::new(&wheel([44, 4, 5], 0.0)).unwrap();
+    assert_eq!(model.classes.len(), 4);
+    for (element, hex) in model.mesh.hexes.iter().enumerate() {
+        let [x, _, z] = model.mesh.nodes[hex[0] as usize];
+        // The inner corner of layer k is at radius 17 mm + k 5.5 mm.
+        let layer = ((x.hypot(z - 0.039) - 0.017) / 5.5e-3).round() as u32;
+        assert_eq!(model.class_of[element], model.class_of[(layer * 44 * 5) as usize]);
+    }
+    assert_eq!(Model::new(&block([0.03, 0.02, 0.01], [3, 4, 5])).unwrap().classes.len(), 1);
+}
+
+/// Any element of a class may lend its geometry: the forces of the ring's elements are those of their own geometry.
+#[test]
+fn forces_do_not_depend_on_which_element_names_the_class() {
+    let model = Model::new(&wheel([44, 4, 5], 0.0)).unwrap();
+    let mut random = Random::new(16);
+    for index in (0..model.element_count()).step_by(37) {
+        let X = model.mesh.hexes[index].map(|n| model.mesh.nodes[n as usize]);
+        let F = random.near_identity(0.1);
+        let x = X.map(|X| {
+            let by = random.vector();
+            std::array::from_fn(|d| times(&F, X)[d] + 1e-4 * by[d])
+        });
+        // The model's table was made without an hourglass stiffness; give both the same.
+        let shared_element = model.class_of.iter().position(|&c| c == model.class_of[index]).unwrap();
+        let shared = class(&model.mesh.hexes[shared_element].map(|n| model.mesh.nodes[n as usize]));
+        for (element, law) in combinations() {
+            let (a, b) =
+                (force(element, &law, &shared, &x, None).f, force(element, &law, &class(&X), &x, None).f);
+            for (a, b) in a.iter().zip(&b) {
+                // Classes are the same shape to 1e-13 (coordinates are ten times an edge); the bulk modulus is
+                // some ten times the stress.
+                assert!(
+                    (0..3).all(|d| (a[d] - b[d]).abs() < 1e-11 * largest([a, b])),
+                    "{element:?} {a:?} {b:?}"
+                );
+            }
+        }
+    }
+}
+
+fn body(lumping: Lumping) -> Body {
+    Body { lumping, ..block([1.0; 3], [1; 3]).body }
+}
+
+/// The lumped masses add up to density times volume, whichever way they are shared out.
+#[test]
+fn mass_is_density_times_volume() {
+    for lumping in [Lumping::RowSum, Lumping::Equal] {
+        let mut scene = wheel([44, 4, 5], 0.0);
+        scene.body.lumping = lumping;
+        let model = Model::new(&scene).unwrap();
+        // Between two 44-gons.
+        let polygon = |r: f64| 22.0 * r * r * (std::f64::consts::TAU / 44.0).sin();
+        let expected = 1100.0 * 0.0175 * (polygon(0.039) - polygon(0.017));
+        // A sum of 1,320 terms.
+        close("mass", model.mass.iter().sum(), expected, 1e-13);
+        let moment = model.mesh.nodes.iter().zip(&model.mass).map(|(x, m)| m * (x[2] - 0.039)).sum::<f64>();
+        assert!(moment.abs() < 1e-14 * expected, "the wheel is balanced");
+    }
+}
+
+/// Row sums keep the centre of mass of a tapered element, eighths do not.
+#[test]
+fn row_sums_keep_the_centre_of_mass() {
+    // A frustum of height 1 on a square of side 1 under one of side s.
+    let s = 0.6;
+    let side = |z: f64| if z < 0.0 { 0.5 } else { 0.5 * s };
+    let nodes = SIGNS.map(|c| [side(c[2]) * c[0], side(c[2]) * c[1], 0.5 + 0.5 * c[2]]).to_vec();
+    let mesh = Mesh {
+        nodes,
+        hexes: vec![[0, 1, 2, 3, 4, 5, 6, 7]],
+        facets: vec![],
+        rim: vec![],
+        axle: [0.0; 3],
+        surface: vec![],
+    };
+    let centroid = |lumping| {
+        let model = Model::from_mesh(mesh.clone(), &body(lumping)).unwrap();
+        let total: f64 = model.mass.iter().sum();
+        close("mass", total, 1100.0 * (1.0 + s + s * s) / 3.0, 1e-14);
+        mesh.nodes.iter().zip(&model.mass).map(|(x, m)| x[2] * m).sum::<f64>() / total
+    };
+    let exact = (1.0 + 2.0 * s + 3.0 * s * s) / (4.0 * (1.0 + s + s * s));
+    close("centre of mass, row sums", centroid(Lumping::RowSum), exact, 1e-14);
+    close("centre of mass, eighths", centroid(Lumping::Equal), 0.5, 1e-14);
+}
+
+/// Inside-out elements, also those folded at a corner only, are refused by number.
+#[test]
+fn an_inside_out_element_is_refused() {
+    let scene = block([2.0, 1.0, 1.0], [2, 1, 1]);
+    let mesh = Model::new(&scene).unwrap().mesh;
+    let mut mirrored = mesh.clone();
+    mirrored.hexes[1] = [4, 5, 6, 7, 0, 1, 2, 3].map(|c: usize| mesh.hexes[1][c]);
+    assert_eq!(Model::from_mesh(mirrored, &scene.body).err(), Some(1));
+    // The far corner pushed through the plane of its three neighbours: positive at the Gauss points, not there.
+    let mut folded = mesh.clone();
+    let corner = folded.hexes[1][6] as usize;
+    folded.nodes[corner] = [1.6, 0.6, 0.6];
+    let X = folded.hexes[1].map(|n| folded.nodes[n as usize]);
+    let at_points = hexroll::physics::element::hex8::gradients(&X);
+    let positive =
+        |q| hexroll::physics::tensor::det(&hexroll::physics::element::hex8::at(&at_points, q)) > 0.0;
+    assert!((0..8).all(positive), "only the corner is folded");
+    assert_eq!(Model::from_mesh(folded, &scene.body).err(), Some(1));
+    // A hair further out it is a valid element.
+    let mut valid = mesh.clone();
+    valid.nodes[corner] = [1.7, 0.7, 0.7];
+    assert!(Model::from_mesh(valid, &scene.body).is_ok());
+}

@@ -1,0 +1,267 @@
+//! The material laws against their definitions: stress from energy, moduli, closed-form states, viscosity.
+
+#![allow(non_snake_case)] // F, J, P: the field's own symbols
+
+mod common;
+
+use common::{G, KAPPA, LAWS, RUBBER, Random, close, times};
+use hexroll::physics::element::hex8;
+use hexroll::physics::material::{
+    KelvinVoigt, Law as Material, MooneyRivlin, MooneyRivlinEq4, NeoHookean, Viscosity,
+};
+use hexroll::physics::tensor::{Mat3, Sym3, cofactor, det, dot};
+use hexroll::scene::Law;
+
+const IDENTITY: Sym3<f64> = Sym3 { xx: 1.0, yy: 1.0, zz: 1.0, xy: 0.0, xz: 0.0, yz: 0.0 };
+
+fn energy_of<L: Material<f64>>(choice: &Law, F: &Mat3<f64>) -> f64 {
+    let (law, k, j) = (L::new(choice), hex8::kinematics::<f64, MooneyRivlin<f64>>(F, &IDENTITY), det(F));
+    law.psi(k.i1, k.i2, j) + law.U(j)
+}
+
+/// Columns of P, by the element's own assembly of it.
+fn piola_of<L: Material<f64>>(choice: &Law, F: &Mat3<f64>) -> Mat3<f64> {
+    let (law, k, j) = (L::new(choice), hex8::kinematics::<f64, L>(F, &IDENTITY), det(F));
+    let d = law.first_piola(k.i1, k.i2, j);
+    hex8::force_matrix::<f64, L>(&k, &d, law.dU(j), &cofactor(F), 1.0)
+}
+
+fn energy(choice: &Law, F: &Mat3<f64>) -> f64 {
+    match choice {
+        Law::NeoHookean { .. } => energy_of::<NeoHookean<f64>>(choice, F),
+        Law::MooneyRivlin { .. } => energy_of::<MooneyRivlin<f64>>(choice, F),
+        Law::MooneyRivlinEq4 { .. } => energy_of::<MooneyRivlinEq4<f64>>(choice, F),
+    }
+}
+
+fn piola(choice: &Law, F: &Mat3<f64>) -> Mat3<f64> {
+    match choice {
+        Law::NeoHookean { .. } => piola_of::<NeoHookean<f64>>(choice, F),
+        Law::MooneyRivlin { .. } => piola_of::<MooneyRivlin<f64>>(choice, F),
+        Law::MooneyRivlinEq4 { .. } => piola_of::<MooneyRivlinEq4<f64>>(choice, F),
+    }
+}
+
+/// sigma = P F^T / J, columns (symmetric).
+fn cauchy(choice: &Law, F: &Mat3<f64>) -> Mat3<f64> {
+    let P = piola(choice, F);
+    std::array::from_fn(|j| std::array::from_fn(|i| (0..3).map(|c| P[c][i] * F[c][j]).sum::<f64>() / det(F)))
+}
+
+/// A random deformation with a volume ratio in 0.7..1.4.
+fn random_deformation(random: &mut Random) -> Mat3<f64> {
+    let F = random.near_identity(0.35);
+    let wanted = 1.05 + 0.35 * random.signed();
+    let s = (wanted / det(&F)).cbrt();
+    F.map(|c| c.map(|v| v * s))
+}
+
+fn diagonal(a: f64, b: f64, c: f64) -> Mat3<f64> {
+    [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]
+}
+
+#[track_caller]
+fn assert_stress(choice: &Law, F: &Mat3<f64>, expected: Mat3<f64>) {
+    let sigma = cauchy(choice, F);
+    for i in 0..3 {
+        for j in 0..3 {
+            // Cubic roots and a dozen products: about 20 round-offs of the stiffest modulus.
+            let error = (sigma[j][i] - expected[j][i]).abs();
+            assert!(
+                error < 1e-14 * 10.0 * KAPPA,
+                "{choice:?} sigma[{i}][{j}] = {} is off by {error}",
+                sigma[j][i]
+            );
+        }
+    }
+}
+
+/// The first Piola stress is the gradient of the stored energy.
+#[test]
+fn stress_is_the_gradient_of_the_energy() {
+    let mut random = Random::new(1);
+    // Central differences: truncation h^2 times the third derivative (some ten moduli) 1e-10 of kappa, rounding
+    // 1e-16 W / h below that.
+    let h = 3e-6;
+    for choice in &LAWS {
+        for _ in 0..50 {
+            let F = random_deformation(&mut random);
+            let P = piola(choice, &F);
+            for (c, i) in (0..9).map(|k| (k / 3, k % 3)) {
+                let moved = |s: f64| {
+                    let mut F = F;
+                    F[c][i] += s;
+                    energy(choice, &F)
+                };
+                let difference = (moved(h) - moved(-h)) / (2.0 * h);
+                let error = (P[c][i] - difference).abs();
+                assert!(error < 2e-9 * KAPPA, "{choice:?} P[{i}][{c}] = {} is off by {error}", P[c][i]);
+            }
+        }
+    }
+}
+
+/// At small strain every law has the moduli of eq. 6, or of its own row of the design's table, and no stress at rest.
+#[test]
+fn small_strain_moduli_are_those_of_the_table() {
+    let h = 1e-5;
+    for choice in &LAWS {
+        let shear = |g: f64| cauchy(choice, &[[1.0, 0.0, 0.0], [g, 1.0, 0.0], [0.0, 0.0, 1.0]])[0][1];
+        let pressure = |e: f64| cauchy(choice, &diagonal(1.0 + e, 1.0 + e, 1.0 + e))[0][0];
+        // Second-order differences: h^2 = 1e-10 of the third derivative; rounding 1e-16 kappa / h = 7e-10 of kappa.
+        close("G", (shear(h) - shear(-h)) / (2.0 * h), G, 1e-8);
+        let kappa = match choice {
+            Law::MooneyRivlinEq4 { g0, .. } => g0 + 2.0 / 3.0 * G,
+            _ => KAPPA,
+        };
+        close("kappa", (pressure(h) - pressure(-h)) / (6.0 * h), kappa, 1e-8);
+        close("G as a scene knows it", choice.shear_modulus(), G, 1e-15);
+        close("kappa as a scene knows it", choice.bulk_modulus(), kappa, 1e-15);
+        close("the P-wave modulus", choice.wave_modulus(), kappa + 4.0 / 3.0 * G, 1e-15);
+        assert_stress(choice, &diagonal(1.0, 1.0, 1.0), [[0.0; 3]; 3]);
+    }
+}
+
+/// Simple shear: the closed-form Cauchy stresses of both energies.
+#[test]
+fn simple_shear_has_its_closed_form_stress() {
+    let g = 0.4;
+    let F = [[1.0, 0.0, 0.0], [g, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let (g1, g2) = (0.7 * G, 0.3 * G);
+    // J = 1: dev[g1 B + g2 (I1 B - B^2)], B11 = 1 + g^2, B12 = g.
+    let mean = (g1 - g2) * g * g / 3.0;
+    let normal = [g1 * g * g - mean, -g2 * g * g - mean, -mean];
+    let shear = (g1 + g2) * g;
+    let expected = [[normal[0], shear, 0.0], [shear, normal[1], 0.0], [0.0, 0.0, normal[2]]];
+    assert_stress(&LAWS[1], &F, expected);
+    // g1 (B - I) - g2 (B^-1 - I)
+    let expected = [[g1 * g * g, shear, 0.0], [shear, -g2 * g * g, 0.0], [0.0; 3]];
+    assert_stress(&LAWS[2], &F, expected);
+}
+
+/// Pure volume change: the deviatoric terms of `mooney-rivlin` vanish, those of eq. 4 do not.
+#[test]
+fn pure_volume_change_has_its_closed_form_stress() {
+    for l in [0.9f64, 1.1] {
+        let (F, J) = (diagonal(l, l, l), l.powi(3));
+        let p = KAPPA * (J - 1.0);
+        assert_stress(&RUBBER, &F, diagonal(p, p, p));
+        assert_stress(&LAWS[1], &F, diagonal(p, p, p));
+        let p = (KAPPA * (J - 1.0) + 0.7 * G * (l * l - 1.0) - 0.3 * G * (1.0 / (l * l) - 1.0)) / J;
+        assert_stress(&LAWS[2], &F, diagonal(p, p, p));
+    }
+}
+
+/// Stretches l along x and t across: the closed-form Cauchy stresses.
+#[test]
+fn axial_stretch_has_its_closed_form_stress() {
+    for (l, t) in [(1.3f64, 0.9f64), (0.8, 1.15)] {
+        let (F, J) = (diagonal(l, t, t), l * t * t);
+        let (b1, b2) = (l * l, t * t);
+        for (choice, g1, g2) in [(&RUBBER, G, 0.0), (&LAWS[1], 0.7 * G, 0.3 * G)] {
+            let deviator = (g1 * J.powf(-2.0 / 3.0) + g2 * J.powf(-4.0 / 3.0) * b2) * (b1 - b2) / J;
+            let p = KAPPA * (J - 1.0);
+            let (along, across) = (p + 2.0 / 3.0 * deviator, p - deviator / 3.0);
+            assert_stress(choice, &F, diagonal(along, across, across));
+        }
+        let sigma = |b: f64| (KAPPA * (J - 1.0) + 0.7 * G * (b - 1.0) - 0.3 * G * (1.0 / b - 1.0)) / J;
+        assert_stress(&LAWS[2], &F, diagonal(sigma(b1), sigma(b2), sigma(b2)));
+    }
+}
+
+/// The neo-Hookean code is the Mooney-Rivlin code with g2 = 0, cheaper.
+#[test]
+fn neo_hookean_is_mooney_rivlin_without_its_second_term() {
+    let general = Law::MooneyRivlin { g0: KAPPA, g1: G, g2: 0.0 };
+    let mut random = Random::new(2);
+    for _ in 0..50 {
+        let F = random_deformation(&mut random);
+        let (a, b) = (piola(&RUBBER, &F), piola(&general, &F));
+        for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
+            // Same formula, another order of a few operations.
+            assert!((a - b).abs() < 1e-14 * KAPPA, "{a} {b}");
+        }
+        close("W", energy(&RUBBER, &F), energy(&general, &F), 1e-13);
+    }
+}
+
+fn volumetric<L: Material<f64>>(choice: &Law) {
+    let law = L::new(choice);
+    let h = 1e-5;
+    for j in [0.7, 0.9, 1.0, 1.1, 1.4] {
+        // Truncation h^2 U''''/6 = 1e-9, rounding 1e-16 / h of kappa.
+        let slope = |f: &dyn Fn(f64) -> f64| (f(j + h) - f(j - h)) / (2.0 * h);
+        let error = (slope(&|j| law.U(j)) - law.dU(j)).abs().max((slope(&|j| law.dU(j)) - law.ddU(j)).abs());
+        assert!(error < 5e-9 * KAPPA, "{choice:?} at J = {j}: off by {error}");
+    }
+    assert_eq!((law.U(1.0), law.dU(1.0)), (0.0, 0.0), "an undeformed volume stores and pushes nothing");
+}
+
+/// U' and U'' are the derivatives of U.
+#[test]
+fn volumetric_derivatives_are_derivatives() {
+    volumetric::<NeoHookean<f64>>(&LAWS[0]);
+    volumetric::<MooneyRivlin<f64>>(&LAWS[1]);
+    volumetric::<MooneyRivlinEq4<f64>>(&LAWS[2]);
+}
+
+const ETA: f64 = 20.0;
+
+/// Cauchy stress sigma_v and power density sigma_v : L of the viscosity at element gradient A and velocity gradient L
+/// (columns).
+fn viscous(A: &Mat3<f64>, L: &Mat3<f64>) -> (Mat3<f64>, f64) {
+    let rate = A.map(|column| times(L, column));
+    let (columns, power) = KelvinVoigt::<f64>::new(ETA).stress(&rate, &cofactor(A), det(A));
+    // sigma = sum_d (sigma cof_d) (x) A_d / det A
+    let sigma = std::array::from_fn(|j| {
+        std::array::from_fn(|i| (0..3).map(|d| columns[d][i] * A[d][j]).sum::<f64>() / det(A))
+    });
+    (sigma, power / det(A))
+}
+
+/// An applied velocity gradient gives eta (L + L^T - 2/3 tr L I), whatever the element's shape.
+#[test]
+fn an_applied_shear_rate_gives_the_closed_form_viscous_stress() {
+    let mut random = Random::new(3);
+    for _ in 0..50 {
+        let A = random_deformation(&mut random);
+        let rate = 100.0 * random.signed();
+        let (sigma, power) = viscous(&A, &[[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]]);
+        let scale = ETA * rate.abs();
+        for (c, i) in (0..9).map(|k| (k / 3, k % 3)) {
+            let expected = if (c, i) == (0, 1) || (c, i) == (1, 0) { ETA * rate } else { 0.0 };
+            // cof and det of a matrix with entries around 1: some ten round-offs, the condition of A a few.
+            assert!((sigma[c][i] - expected).abs() < 1e-13 * scale, "sigma[{i}][{c}] = {}", sigma[c][i]);
+        }
+        close("power", power, ETA * rate * rate, 1e-13);
+        let L: Mat3<f64> = [random.vector(), random.vector(), random.vector()];
+        let (sigma, _) = viscous(&A, &L);
+        let trace = L[0][0] + L[1][1] + L[2][2];
+        for (c, i) in (0..9).map(|k| (k / 3, k % 3)) {
+            let mean = if c == i { 2.0 / 3.0 * trace } else { 0.0 };
+            assert!((sigma[c][i] - ETA * (L[c][i] + L[i][c] - mean)).abs() < 1e-12 * ETA);
+        }
+    }
+}
+
+/// A rigid spin makes no viscous stress, a volume change none either, and the power is never negative.
+#[test]
+fn viscosity_ignores_rigid_spins_and_never_gives_power() {
+    let mut random = Random::new(4);
+    for _ in 0..200 {
+        let A = random_deformation(&mut random);
+        let [a, b, c] = random.vector();
+        let spin = [[0.0, c, -b], [-c, 0.0, a], [b, -a, 0.0]];
+        let (sigma, power) = viscous(&A, &spin);
+        // L is found from A's rate: round-off of the spin.
+        assert!(sigma.iter().flatten().all(|s| s.abs() < 1e-13 * ETA), "{sigma:?}");
+        assert!(power.abs() < 1e-24 * ETA + 1e-14, "{power}");
+        let (sigma, _) = viscous(&A, &diagonal(a, a, a));
+        assert!(sigma.iter().flatten().all(|s| s.abs() < 1e-13 * ETA), "{sigma:?}");
+        let L: Mat3<f64> = [random.vector(), random.vector(), random.vector()];
+        let (sigma, power) = viscous(&A, &L);
+        let work: f64 = sigma.iter().zip(&L).map(|(&s, &l)| dot(s, l)).sum();
+        close("power", power, work, 1e-11);
+        assert!(power >= 0.0);
+    }
+}

@@ -1,0 +1,99 @@
+//! The patch test: an affine motion of a distorted mesh stresses every element alike and leaves its inside in balance.
+#![allow(non_snake_case)] // F, J, P: the field's own symbols
+
+mod common;
+
+use common::{ELEMENTS, LAWS, block, distort, largest, times};
+use hexroll::cpu::{self, Precision};
+use hexroll::model::Model;
+use hexroll::physics::element::hex8;
+use hexroll::physics::tensor::{Mat3, det};
+use hexroll::scene::{Element, Law};
+
+const ETA: f64 = 20.0;
+const EDGE: f64 = 0.01;
+/// Deformation and velocity gradients, columns: stretch, shear and twist of some 20 %, and rates of 100 /s.
+const F: Mat3<f64> = [[1.15, 0.1, -0.05], [-0.2, 0.95, 0.12], [0.07, 0.03, 1.1]];
+const L: Mat3<f64> = [[30.0, -70.0, 20.0], [110.0, -10.0, 50.0], [5.0, 40.0, -60.0]];
+
+/// A block of 4 x 3 x 3 elements, every node moved by up to 20 % of an edge.
+fn patch(element: Element, law: Law) -> (hexroll::scene::Scene, Model) {
+    let mut scene = block([4.0 * EDGE, 3.0 * EDGE, 3.0 * EDGE], [4, 3, 3]);
+    (scene.body.element, scene.body.law, scene.body.viscosity) = (element, law, Some(ETA));
+    let mut mesh = Model::new(&scene).unwrap().mesh;
+    distort(&mut mesh, EDGE, 0.2);
+    let model = Model::from_mesh(mesh, &scene.body).expect("still a valid mesh");
+    (scene, model)
+}
+
+/// Cauchy stress from the closed forms of the design's table plus the viscous stress.
+fn expected_stress(law: Law) -> Mat3<f64> {
+    let J = det(&F);
+    let B: Mat3<f64> =
+        std::array::from_fn(|j| std::array::from_fn(|i| (0..3).map(|c| F[c][i] * F[c][j]).sum()));
+    let square = |A: &Mat3<f64>| -> Mat3<f64> { std::array::from_fn(|c| times(A, A[c])) };
+    let trace = |A: &Mat3<f64>| A[0][0] + A[1][1] + A[2][2];
+    let unit = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+    let elastic = |i: usize, j: usize| match law {
+        Law::MooneyRivlinEq4 { g0, g1, g2 } => {
+            // B^-1 = (B^2 - I1 B + I2 I) / J^2
+            let (i1, b2) = (trace(&B), square(&B));
+            let i2 = 0.5 * (i1 * i1 - trace(&b2));
+            let inverse = (b2[j][i] - i1 * B[j][i] + i2 * unit(i, j)) / (J * J);
+            (g0 * (J - 1.0) * unit(i, j) + g1 * (B[j][i] - unit(i, j)) - g2 * (inverse - unit(i, j))) / J
+        }
+        Law::NeoHookean { g0, g1 } | Law::MooneyRivlin { g0, g1, .. } => {
+            let g2 = if let Law::MooneyRivlin { g2, .. } = law { g2 } else { 0.0 };
+            let Bb = B.map(|c| c.map(|v| v * J.powf(-2.0 / 3.0)));
+            let (i1b, b2) = (trace(&Bb), square(&Bb));
+            let T = |i: usize, j: usize| g1 * Bb[j][i] + g2 * (i1b * Bb[j][i] - b2[j][i]);
+            let mean = (T(0, 0) + T(1, 1) + T(2, 2)) / 3.0;
+            g0 * (J - 1.0) * unit(i, j) + (T(i, j) - mean * unit(i, j)) / J
+        }
+    };
+    let viscous = |i: usize, j: usize| ETA * (L[j][i] + L[i][j] - 2.0 / 3.0 * trace(&L) * unit(i, j));
+    std::array::from_fn(|j| std::array::from_fn(|i| elastic(i, j) + viscous(i, j)))
+}
+
+/// Volume mean of an element's Cauchy stress, sum_a f_a (x) x_a / v.
+fn mean_stress(x: &[[f64; 3]; 8], f: &[[f64; 3]; 8]) -> Mat3<f64> {
+    let columns = hex8::gradients(x);
+    let volume: f64 = (0..8).map(|q| det(&hex8::at(&columns, q))).sum();
+    std::array::from_fn(|j| std::array::from_fn(|i| (0..8).map(|a| f[a][i] * x[a][j]).sum::<f64>() / volume))
+}
+
+/// Every formulation with every law: one stress, that of the closed form, and no force inside, to round-off.
+#[test]
+fn an_affine_motion_of_a_distorted_mesh_is_homogeneous() {
+    for (element, law) in ELEMENTS.into_iter().flat_map(|e| LAWS.into_iter().map(move |l| (e, l))) {
+        let (scene, model) = patch(element, law);
+        let x: Vec<[f64; 3]> = model.mesh.nodes.iter().map(|&X| times(&F, X)).collect();
+        let v: Vec<[f64; 3]> = x.iter().map(|&x| times(&L, x)).collect();
+        let forces = cpu::engine(&model, &scene, Precision::F64, 1).force(&x, &v).unwrap();
+        let scale = largest(&forces);
+        let inside = |n: &usize| model.mesh.surface.binary_search(&(*n as u32)).is_err();
+        let interior: Vec<usize> = (0..x.len()).filter(inside).collect();
+        assert_eq!(interior.len(), 3 * 2 * 2);
+        for n in interior {
+            // Eight elements' round-off, with positions of four edges.
+            assert!(
+                largest([&forces[n]]) < 2e-14 * scale,
+                "{element:?} {law:?}: {:?} at node {n}",
+                forces[n]
+            );
+        }
+        let expected = expected_stress(law);
+        for (hex, &class) in model.mesh.hexes.iter().zip(&model.class_of) {
+            let (x, v) = (hex.map(|n| x[n as usize]), hex.map(|n| v[n as usize]));
+            let sigma = mean_stress(&x, &cpu::element_forces(&model, class as usize, &x, &v));
+            for (c, i) in (0..9).map(|k| (k / 3, k % 3)) {
+                // Round-off of the bulk modulus, positions of four edges.
+                let error = (sigma[c][i] - expected[c][i]).abs();
+                assert!(
+                    error < 1e-13 * common::KAPPA,
+                    "{element:?} {law:?} sigma[{i}][{c}] is off by {error}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! The critical step: against a known value, and against what the scheme does on either side of it.
+
+mod common;
+
+use common::{Driver, Random, block, close, wheel};
+use hexroll::error::Error;
+use hexroll::model::Model;
+use hexroll::run::stability::{self, Critical};
+use hexroll::scene::{Lumping, Scene};
+
+/// Critical step in the reference shape.
+fn at_rest(driver: &mut Driver, model: &Model) -> Critical {
+    let guess = stability::element_bound(model).unwrap();
+    stability::assembled(&mut *driver.engine, model, &model.mesh.nodes, guess, None).unwrap()
+}
+
+/// Steps of `dt` from a random velocity of 1e-6 m/s; what ends them, if anything.
+fn shaken(scene: &Scene, dt: f64, steps: usize) -> hexroll::Result<f64> {
+    let model = Model::new(scene).unwrap();
+    let mut driver = Driver::new(&model, scene);
+    let mut random = Random::new(5);
+    let held = |n: usize| model.mesh.rim.binary_search(&(n as u32)).is_ok();
+    let v: Vec<[f64; 3]> = (0..model.node_count())
+        .map(|n| if held(n) { [0.0; 3] } else { random.vector().map(|v| 1e-6 * v) })
+        .collect();
+    driver.engine.set_velocity(&v, &[0.0; 6]).unwrap();
+    driver.advance(std::iter::repeat_n(dt, steps))?;
+    Ok(common::largest(&driver.engine.state().unwrap().v))
+}
+
+/// At 0.97 of the critical step nothing grows, at 1.03 an element fails and the error names it and the step.
+fn assert_sharp(scene: &Scene, critical: f64) {
+    let elements = Model::new(scene).unwrap().element_count();
+    let speed = shaken(scene, 0.97 * critical, 3000).expect("stable below the critical step");
+    // A mode of frequency w at dt overshoots by up to 1/sqrt(1 - (w dt / 2)^2) = 4.
+    assert!(speed < 1e-5, "grew to {speed} m/s from 1e-6");
+    // The worst mode grows by exp(2 acosh 1.03) = 1.6 a step: from 1e-12 m to a millimetre in 50, with viscosity later.
+    let error = shaken(scene, 1.03 * critical, 3000).expect_err("unstable above the critical step");
+    let (Error::Inverted { step, element, .. } | Error::NotFinite { step, element, .. }) = error else {
+        panic!("not a numerical failure: {error}")
+    };
+    assert!(step > 10 && step < 3000 && element < elements, "{error}");
+    let text = error.to_string();
+    assert!(text.contains(&format!("element {element}")) && text.contains(&format!("step {step}")), "{text}");
+}
+
+/// The paper's wheel at rest with equal masses: 1.395e-5 s, by an independent program (0.3 %: its last digit, and
+/// half of the eigenvalue's residual of 1e-3). The bound from single elements is below.
+#[test]
+fn the_wheels_critical_step_is_the_known_one() {
+    let mut scene = wheel([44, 4, 5], 0.0);
+    scene.body.lumping = Lumping::Equal;
+    scene.road = None;
+    let model = Model::new(&scene).unwrap();
+    let mut driver = Driver::new(&model, &scene);
+    let critical = at_rest(&mut driver, &model);
+    close("critical step", critical.dt, 1.395e-5, 3e-3);
+    let bound = stability::element_bound(&model).unwrap();
+    assert!(
+        bound < critical.dt && bound > 0.5 * critical.dt,
+        "single elements: {bound}, assembled {}",
+        critical.dt
+    );
+    assert_sharp(&scene, critical.dt);
+}
+
+/// Kelvin-Voigt viscosity shortens the step, and the shorter step is sharp too.
+#[test]
+fn the_critical_step_of_a_viscous_block_is_sharp() {
+    let mut scene = block([0.02, 0.015, 0.01], [4, 3, 2]);
+    let critical_of = |scene: &Scene| {
+        let model = Model::new(scene).unwrap();
+        let bound = stability::element_bound(&model).unwrap();
+        let critical = at_rest(&mut Driver::new(&model, scene), &model).dt;
+        assert!(bound < critical, "single elements: {bound}, assembled {critical}");
+        critical
+    };
+    let elastic = critical_of(&scene);
+    scene.body.viscosity = Some(60.0);
+    let viscous = critical_of(&scene);
+    // Design page, section 1: dt = (2/w)(sqrt(1 + xi^2) - xi) with the damping ratio xi of a volumetric mode; the
+    // highest modes also shear, hence 5 %.
+    let xi = 4.0 / 3.0 * 60.0 * (2.0 / elastic) / (2.0 * (common::KAPPA + 4.0 / 3.0 * common::G));
+    close("viscous over elastic step", viscous / elastic, (1.0 + xi * xi).sqrt() - xi, 0.05);
+    assert_sharp(&scene, viscous);
+}
+
+/// Lanczos started from other vectors finds the same step, within its residual (1e-3 of the eigenvalue, twice).
+#[test]
+fn the_critical_step_does_not_depend_on_the_start() {
+    let mut scene = wheel([24, 3, 3], 0.0);
+    scene.road = None;
+    let model = Model::new(&scene).unwrap();
+    let mut driver = Driver::new(&model, &scene);
+    let cold = at_rest(&mut driver, &model);
+    let mut random = Random::new(6);
+    for _ in 0..3 {
+        // The critical mode of another shape as the start.
+        let moved: Vec<[f64; 3]> = model
+            .mesh
+            .nodes
+            .iter()
+            .map(|x| {
+                let by = random.vector();
+                std::array::from_fn(|d| x[d] + 2e-4 * by[d])
+            })
+            .collect();
+        let other = stability::assembled(&mut *driver.engine, &model, &moved, cold.dt, None).unwrap();
+        assert!(other.dt < cold.dt, "a crumpled mesh has stiffer elements");
+        let warm =
+            stability::assembled(&mut *driver.engine, &model, &model.mesh.nodes, other.dt, Some(&other))
+                .unwrap();
+        close("critical step", warm.dt, cold.dt, 1e-3);
+    }
+}
+
+/// Compression shortens the critical step, and a run follows it.
+#[test]
+fn a_run_follows_the_critical_step_under_compression() {
+    use hexroll::scene::{Drive, NodeSet, Rim, Stage};
+    let mut scene = block([0.02, 0.02, 0.02], [3, 3, 3]);
+    scene.road = Some(common::GROUND);
+    scene.rim = Some(Rim { nodes: NodeSet::ZMax });
+    scene.output.sample = 1e-4;
+    let down = Drive::Displacement { to: -0.007, ramp: 0.02 };
+    scene.stages = vec![Stage { duration: 0.03, ..common::press(down) }];
+    scene.stages[0].method = hexroll::scene::Method::Explicit;
+    let outcome = common::run(&scene);
+    let totals = &outcome.totals;
+    assert!(totals.critical_min < 0.9 * totals.critical_first, "{totals:?}");
+    let last = outcome.last();
+    // Step used over critical step: never above the safety factor by more than the step moves between two looks.
+    assert!(last.dt_s <= 0.9 * 1.02 * totals.critical_min && totals.dt_max > last.dt_s, "{totals:?}");
+}
