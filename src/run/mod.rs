@@ -28,6 +28,8 @@ pub struct Progress<'a> {
     /// Latest possible end of the simulation [s]; a quasi-static stage may end sooner.
     pub end: f64,
     pub steps: u64,
+    /// What would be returned if the simulation ended here.
+    pub totals: &'a Totals,
 }
 
 /// Who listens to a simulation.
@@ -68,7 +70,8 @@ pub fn run(
     observer: &mut dyn Observer,
 ) -> Result<Totals> {
     let mut run = Run::new(scene, model, engine, observer)?;
-    for stage in &scene.stages {
+    for (k, stage) in scene.stages.iter().enumerate() {
+        run.end = run.totals.time + scene.stages[k..].iter().map(|s| s.duration).sum::<f64>();
         run.stage(stage)?;
         if run.totals.interrupted {
             break;
@@ -125,7 +128,7 @@ impl<'a> Run<'a> {
             refresh_at: 0,
             refresh_interval: 0,
             next_snapshot: 0.0,
-            end: scene.stages.iter().map(|s| s.duration).sum(),
+            end: 0.0,
             last_ratios: [f64::INFINITY; 2],
         };
         run.start_body()?;
@@ -182,8 +185,11 @@ impl<'a> Run<'a> {
             let window = self.window(stage, window_end)?;
             let settled = self.has_settled(stage, &window)?;
             let last = n == count || settled;
-            self.snapshots(stage, &window, last)?;
+            let written = self.snapshots(stage, &window, last)?;
             if self.observer.interrupted() {
+                if !written {
+                    self.snapshots(stage, &window, true)?;
+                }
                 self.totals.interrupted = true;
                 return Ok(());
             }
@@ -239,7 +245,8 @@ impl<'a> Run<'a> {
         (self.rim, self.rim_rate) = (window.rim, window.rim_rate);
         let at = WindowEnd { time: end, length, dt, stage: stage.name.clone() };
         let row = self.totals.ledger.row(self.model, self.scene.road.as_ref(), &at, &window);
-        let progress = Progress { stage: &stage.name, time: end, end: self.end, steps: self.totals.steps };
+        let totals = &self.totals;
+        let progress = Progress { stage: &stage.name, time: end, end: self.end, steps: totals.steps, totals };
         self.observer.sample(&row, &progress)?;
         Ok(window)
     }
@@ -307,12 +314,13 @@ impl<'a> Run<'a> {
         Ok(2.0 * free.map(square).sum::<f64>().sqrt())
     }
 
-    fn snapshots(&mut self, stage: &Stage, window: &Window, last: bool) -> Result<()> {
+    /// Hands out a snapshot if one is due; whether it was.
+    fn snapshots(&mut self, stage: &Stage, window: &Window, last: bool) -> Result<bool> {
         // Half a window of slack: snapshot times are whole windows.
         let time = self.totals.time;
         let due = time >= self.next_snapshot - 0.5 * self.scene.output.sample;
         if self.scene.output.snapshots == Snapshots::None || !(due || last) {
-            return Ok(());
+            return Ok(false);
         }
         if let (true, Snapshots::Every(interval)) = (due, self.scene.output.snapshots) {
             self.next_snapshot += interval;
@@ -321,6 +329,7 @@ impl<'a> Run<'a> {
         let length = window.steps as f64 * self.dt_before;
         let road = self.scene.road.as_ref();
         let snapshot = fields::snapshot(self.model, road, time, self.totals.steps, length, state, window);
-        self.observer.snapshot(&snapshot, &stage.name)
+        self.observer.snapshot(&snapshot, &stage.name)?;
+        Ok(true)
     }
 }

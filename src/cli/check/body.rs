@@ -1,0 +1,113 @@
+//! The body: mesh, element, law.
+
+use serde::Serialize;
+
+use crate::model::Model;
+use crate::scene::{Element, Law, Lumping, MeshSpec, NodeSet, Scene};
+
+/// The body as it is meshed.
+#[derive(Debug, Serialize)]
+pub struct Body {
+    pub mesh: String,
+    pub elements: usize,
+    pub nodes: usize,
+    /// Nodes that can touch the road.
+    pub surface_nodes: usize,
+    pub rim: Option<String>,
+    pub rim_nodes: usize,
+    /// Distinct reference shapes of elements.
+    pub shape_classes: usize,
+    pub element: String,
+    pub mass_lumping: &'static str,
+    pub mass_kg: f64,
+    pub law: &'static str,
+    /// The law's own constants and its energy.
+    pub constants: String,
+    pub shear_modulus_Pa: f64,
+    pub bulk_modulus_Pa: f64,
+    pub youngs_modulus_Pa: f64,
+    pub poisson_ratio: f64,
+    pub density_kg_m3: f64,
+    /// Speed of waves of dilatation and of shear, unstressed [m/s].
+    pub wave_speed_m_s: f64,
+    pub shear_wave_speed_m_s: f64,
+}
+
+impl Body {
+    pub fn of(scene: &Scene, model: &Model) -> Body {
+        let law = &scene.body.law;
+        let [G, kappa, rho] = [law.shear_modulus(), law.bulk_modulus(), scene.body.density];
+        let mesh = &model.mesh;
+        Body {
+            mesh: mesh_text(&scene.body.mesh),
+            elements: model.element_count(),
+            nodes: model.node_count(),
+            surface_nodes: mesh.surface.len(),
+            rim: scene.rim.as_ref().map(|rim| set_name(rim.nodes).into()),
+            rim_nodes: mesh.rim.len(),
+            shape_classes: model.classes.len(),
+            element: element_text(scene.body.element),
+            mass_lumping: match scene.body.lumping {
+                Lumping::RowSum => "row sums of the consistent mass",
+                Lumping::Equal => "an eighth of the element to each corner",
+            },
+            mass_kg: model.mass.iter().sum(),
+            law: law.name(),
+            constants: constants(law),
+            shear_modulus_Pa: G,
+            bulk_modulus_Pa: kappa,
+            youngs_modulus_Pa: 9.0 * kappa * G / (3.0 * kappa + G),
+            poisson_ratio: (3.0 * kappa - 2.0 * G) / (2.0 * (3.0 * kappa + G)),
+            density_kg_m3: rho,
+            wave_speed_m_s: (law.wave_modulus() / rho).sqrt(),
+            shear_wave_speed_m_s: (G / rho).sqrt(),
+        }
+    }
+}
+
+fn mesh_text(spec: &MeshSpec) -> String {
+    let mm = |v: f64| format!("{}", (v * 1e9).round() / 1e6);
+    match *spec {
+        MeshSpec::Ring { outer_radius, inner_radius, width, elements: [c, r, w] } => format!(
+            "ring, radii {} and {} mm, width {} mm: {c} x {r} x {w} elements (circumference, radius, width)",
+            mm(outer_radius),
+            mm(inner_radius),
+            mm(width)
+        ),
+        MeshSpec::Block { size, elements: [x, y, z] } => {
+            format!("block, {} mm: {x} x {y} x {z} elements", size.map(mm).join(" x "))
+        }
+    }
+}
+
+fn set_name(set: NodeSet) -> &'static str {
+    match set {
+        NodeSet::Inner => "inner cylinder",
+        NodeSet::XMin => "face x-min",
+        NodeSet::XMax => "face x-max",
+        NodeSet::YMin => "face y-min",
+        NodeSet::YMax => "face y-max",
+        NodeSet::ZMin => "face z-min",
+        NodeSet::ZMax => "face z-max",
+    }
+}
+
+fn element_text(element: Element) -> String {
+    match element {
+        Element::Q1p0 => "q1p0: 2x2x2 points, one mean-dilatation pressure".into(),
+        Element::Full => "full: 2x2x2 points for everything".into(),
+        Element::UniformGradient { hourglass } => {
+            format!("uniform-gradient: mean gradients, hourglass stiffness {hourglass} G")
+        }
+    }
+}
+
+fn constants(law: &Law) -> String {
+    let mpa = |v: f64| format!("{} MPa", v * 1e-6);
+    match *law {
+        Law::NeoHookean { g0, g1 } => format!("g0 = {}, g1 = {}", mpa(g0), mpa(g1)),
+        Law::MooneyRivlin { g0, g1, g2 } | Law::MooneyRivlinEq4 { g0, g1, g2 } => {
+            format!("g0 = {}, g1 = {}, g2 = {}", mpa(g0), mpa(g1), mpa(g2))
+        }
+    }
+}

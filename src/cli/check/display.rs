@@ -1,0 +1,132 @@
+//! The check as text.
+
+use std::fmt::{Display, Formatter, Result};
+
+use super::programs::{GpuPlan, Program};
+use super::{Body, Check, StagePlan};
+use crate::cli::format::{bytes, count, duration, si, updates};
+
+impl Display for Check {
+    fn fmt(&self, f: &mut Formatter) -> Result {
+        writeln!(f, "{}\n  {} (hash {})", self.title, self.scene_file, &self.scene_hash[..12])?;
+        if !self.expected.is_empty() {
+            writeln!(f, "  expected: {}", self.expected)?;
+        }
+        write!(f, "\n{}", self.body)?;
+        writeln!(f, "\npieces")?;
+        for piece in &self.pieces {
+            writeln!(f, "  {:<14} {}", piece.name, piece.detail.as_deref().unwrap_or("-  left out"))?;
+        }
+        writeln!(f, "\nstages")?;
+        self.stages.iter().try_for_each(|stage| write!(f, "{stage}"))?;
+        self.time(f)?;
+        writeln!(f, "\noutputs")?;
+        self.outputs.iter().try_for_each(|line| writeln!(f, "  {line}"))?;
+        write!(f, "\n{}", self.gpu)?;
+        if !self.warnings.is_empty() {
+            writeln!(f)?;
+        }
+        self.warnings.iter().try_for_each(|warning| writeln!(f, "warning: {warning}"))
+    }
+}
+
+impl Check {
+    fn time(&self, f: &mut Formatter) -> Result {
+        let steps = &self.steps;
+        writeln!(f, "\ntime")?;
+        writeln!(
+            f,
+            "  {:<14} {}, from single elements at rest times the safety factor; a run takes it from the assembled body, \
+             usually longer",
+            "step",
+            si(steps.dt_s, "s")
+        )?;
+        writeln!(f, "  {:<14} at most {}", "steps", count(steps.total))?;
+        for e in &self.estimates {
+            let (time, rate) = (duration(e.seconds), updates(e.updates_per_s));
+            writeln!(f, "  {:<14} at most {time} on {}: {rate}, measured now", "estimate", e.engine)?;
+        }
+        Ok(())
+    }
+}
+
+impl Display for Body {
+    fn fmt(&self, f: &mut Formatter) -> Result {
+        let mut line = |name: &str, value: String| writeln!(f, "  {name:<14} {value}");
+        line("mesh", self.mesh.clone())?;
+        let [e, n] = [self.elements, self.nodes].map(|n| count(n as u64));
+        line("", format!("{e} elements of {} shapes, {n} nodes", self.shape_classes))?;
+        let rim =
+            self.rim.as_ref().map_or("no rim".into(), |rim| format!("{} of the rim ({rim})", self.rim_nodes));
+        line("", format!("{} surface nodes, {rim}", self.surface_nodes))?;
+        line("element", self.element.clone())?;
+        line("mass", format!("{}: {}", si(1e3 * self.mass_kg, "g"), self.mass_lumping))?;
+        line("law", format!("{}: {}", self.law, self.constants))?;
+        let (G, kappa, E) = (self.shear_modulus_Pa, self.bulk_modulus_Pa, self.youngs_modulus_Pa);
+        line(
+            "",
+            format!(
+                "G = {}, kappa = {}, E = {}, nu = {:.4}",
+                si(G, "Pa"),
+                si(kappa, "Pa"),
+                si(E, "Pa"),
+                self.poisson_ratio
+            ),
+        )?;
+        let (c, s) = (self.wave_speed_m_s, self.shear_wave_speed_m_s);
+        line(
+            "waves",
+            format!("{c:.1} m/s of dilatation, {s:.1} m/s of shear; rho = {} kg/m3", self.density_kg_m3),
+        )
+    }
+}
+
+impl Display for StagePlan {
+    fn fmt(&self, f: &mut Formatter) -> Result {
+        let steps = count(self.steps_at_most);
+        writeln!(
+            f,
+            "  {:<14} {}, {} or {steps} steps at most",
+            self.name,
+            self.method,
+            si(self.duration_s, "s")
+        )?;
+        if self.mass_damping_per_s > 0.0 {
+            writeln!(f, "  {:<14} mass damping {} 1/s", "", self.mass_damping_per_s)?;
+        }
+        if let Some(start) = self.initial_velocity {
+            writeln!(f, "  {:<14} {start}", "")?;
+        }
+        self.rim.iter().try_for_each(|motion| writeln!(f, "  {:<14} rim: {motion}", ""))
+    }
+}
+
+impl Display for GpuPlan {
+    fn fmt(&self, f: &mut Formatter) -> Result {
+        writeln!(f, "GPU programs (f32), each of only these parts")?;
+        self.programs.iter().try_for_each(|program| write!(f, "{program}"))?;
+        writeln!(f, "GPU memory: {}, the largest buffers", bytes(self.bytes))?;
+        for buffer in self.buffers.iter().take(5) {
+            writeln!(
+                f,
+                "  {:<14} {:>10}  {} entries",
+                buffer.name,
+                bytes(buffer.bytes),
+                count(buffer.entries)
+            )?;
+        }
+        Ok(())
+    }
+}
+
+impl Display for Program {
+    fn fmt(&self, f: &mut Formatter) -> Result {
+        let stages =
+            if self.stages.is_empty() { String::new() } else { format!(" in {}", self.stages.join(", ")) };
+        writeln!(f, "  {:<14} {}{stages}; {} functions", self.kernel, self.runs, self.functions)?;
+        writeln!(f, "  {:<14} {}", "  parts", self.parts.join(" "))?;
+        let bindings: Vec<String> =
+            self.bindings.iter().map(|b| format!("{} {} ({})", b.binding, b.name, b.access)).collect();
+        writeln!(f, "  {:<14} {}", "  bindings", bindings.join(", "))
+    }
+}

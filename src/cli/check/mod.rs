@@ -1,0 +1,129 @@
+//! `hexroll check`: what will be modelled, with which programs, at what cost. Nothing is simulated or written.
+
+mod body;
+mod display;
+mod programs;
+mod stages;
+
+use clap::Args;
+use serde::Serialize;
+
+use super::choose::{self, Precision};
+use super::estimate::{self, Steps};
+use super::{SceneArgs, warnings};
+use crate::Result;
+use crate::engine::Engine;
+use crate::gpu::adapters;
+use crate::model::Model;
+use crate::scene::Scene;
+use body::Body;
+use programs::GpuPlan;
+use stages::StagePlan;
+
+pub const HELP: &str = "\
+Reads and meshes the scene, composes its GPU programs, and times a few steps for the estimate; simulates nothing,
+writes nothing.
+
+Examples:
+  hexroll check scenes/lat100_straight.toml
+  hexroll check scenes/lat100_straight.toml --set body.mesh.elements='[132, 12, 15]'
+  hexroll check scenes/lat100_straight.toml --json | jq .gpu.programs";
+
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Everything the command has to say.
+#[derive(Debug, Serialize)]
+struct Check {
+    scene_file: String,
+    scene_hash: String,
+    title: String,
+    expected: String,
+    body: Body,
+    /// Optional parts of the physics.
+    pieces: Vec<Piece>,
+    stages: Vec<StagePlan>,
+    steps: Steps,
+    /// Time estimates, one an engine that was timed.
+    estimates: Vec<Estimate>,
+    gpu: GpuPlan,
+    outputs: Vec<String>,
+    warnings: Vec<String>,
+}
+
+/// A part of the physics that a scene may leave out.
+#[derive(Debug, Serialize)]
+struct Piece {
+    name: &'static str,
+    /// What is modelled; none: left out, with all of its code.
+    detail: Option<String>,
+}
+
+/// How long a run would take.
+#[derive(Debug, Serialize)]
+struct Estimate {
+    engine: String,
+    /// Measured on this machine over the scene's first steps.
+    updates_per_s: f64,
+    /// At most, if stages settle sooner.
+    seconds: f64,
+}
+
+pub fn execute(args: &CheckArgs) -> Result<()> {
+    let (scene, _) = args.scene.load()?;
+    let model = Model::new(&scene)?;
+    let steps = Steps::of(&scene, &model)?;
+    let (estimates, notes) = estimates(&scene, &model, &steps);
+    let check = Check {
+        scene_file: scene.file.display().to_string(),
+        scene_hash: scene.hash.clone(),
+        title: scene.title.clone(),
+        expected: scene.expected.clone(),
+        body: Body::of(&scene, &model),
+        pieces: stages::pieces(&scene),
+        stages: stages::plans(&scene, &steps),
+        gpu: GpuPlan::of(&scene, &model)?,
+        steps,
+        estimates,
+        outputs: stages::outputs(&scene),
+        warnings: warnings::of(&scene, &model).into_iter().chain(notes).collect(),
+    };
+    if args.json { super::print_json(&check) } else { super::print(&check.to_string()) }
+}
+
+/// Times the CPU engine, and a real GPU if there is one (a software adapter would take seconds to get ready). An
+/// engine that fails is a note, not the end: the rest of the check stands.
+fn estimates(scene: &Scene, model: &Model, steps: &Steps) -> (Vec<Estimate>, Vec<String>) {
+    let reports = adapters();
+    let real = choose::usable(&reports, None).filter(|a| !a.software);
+    let mut engines = vec![Ok(choose::cpu(Precision::F64, 0, model, scene))];
+    engines.extend(real.map(|a| choose::gpu(Some(&a.name), Precision::F32, model, scene)));
+    let (mut estimates, mut notes) = (Vec::new(), Vec::new());
+    for engine in engines {
+        match engine.and_then(|engine| Estimate::of(engine, scene, model, steps)) {
+            Ok(estimate) => estimates.push(estimate),
+            Err(error) => notes.push(format!("no time estimate: {error}")),
+        }
+    }
+    (estimates, notes)
+}
+
+impl Estimate {
+    fn of(mut engine: Box<dyn Engine>, scene: &Scene, model: &Model, steps: &Steps) -> Result<Estimate> {
+        let updates_per_s = estimate::rate(&mut *engine, model, scene, steps.element_bound_s)?;
+        let info = engine.info();
+        let device = if info.engine == "cpu" { format!("{} threads", info.threads) } else { info.device };
+        let seconds = steps.seconds(model, updates_per_s);
+        Ok(Estimate {
+            engine: format!("{} {}, {device}", info.engine, info.precision),
+            updates_per_s,
+            seconds,
+        })
+    }
+}

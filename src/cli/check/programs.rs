@@ -1,0 +1,197 @@
+//! The GPU programs a scene is composed of, as naga sees them: parts, bindings, memory.
+
+use std::collections::BTreeMap;
+
+use naga::{AddressSpace, Module, StorageAccess, TypeInner};
+use serde::Serialize;
+
+use crate::engine::StageSetup;
+use crate::gpu::compose::{Choice, Kernel, RimKind};
+use crate::model::Model;
+use crate::scene::{Drive, Scene};
+use crate::{Error, Result};
+
+/// Programs and buffers of the single-precision GPU engine.
+#[derive(Debug, Serialize)]
+pub struct GpuPlan {
+    pub programs: Vec<Program>,
+    /// Buffers that grow with the mesh or that programs share.
+    pub buffers: Vec<Buffer>,
+    /// Their sum; copies for trial states and read-back come on top.
+    pub bytes: u64,
+}
+
+/// A composed program.
+#[derive(Debug, Serialize)]
+pub struct Program {
+    pub kernel: String,
+    /// Stages that dispatch it; empty: all.
+    pub stages: Vec<String>,
+    /// When it is dispatched.
+    pub runs: &'static str,
+    /// Files it is composed of.
+    pub parts: Vec<&'static str>,
+    pub functions: usize,
+    pub bindings: Vec<Binding>,
+}
+
+/// A buffer as a program binds it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Binding {
+    pub binding: u32,
+    pub name: String,
+    pub access: &'static str,
+    /// Size of one entry, or of all of a binding without a length of its own [bytes].
+    pub stride: u32,
+    /// Whether it is an array as long as the mesh asks.
+    pub array: bool,
+}
+
+/// A buffer on the device.
+#[derive(Debug, Serialize)]
+pub struct Buffer {
+    pub name: String,
+    pub entries: u64,
+    pub bytes: u64,
+}
+
+impl GpuPlan {
+    /// # Errors
+    /// [`Error::Device`](crate::Error::Device) if a program cannot be composed.
+    pub fn of(scene: &Scene, model: &Model) -> Result<GpuPlan> {
+        let mut programs: Vec<Program> = Vec::new();
+        for (kernel, runs) in scene_kernels(scene) {
+            programs.push(program(&choice(scene), kernel, runs)?);
+        }
+        for stage in &scene.stages {
+            let free = stage.rim.drives().map(|d| match d {
+                Drive::Free { mass, .. } => Some(mass),
+                _ => None,
+            });
+            let choice = choice(scene).for_stage(&StageSetup { mass_damping: stage.mass_damping, free });
+            for (kernel, runs) in stage_kernels(&choice) {
+                let new = program(&choice, kernel, runs)?;
+                match programs.iter_mut().find(|p| p.parts == new.parts) {
+                    Some(known) => known.stages.push(stage.name.clone()),
+                    None => programs.push(Program { stages: vec![stage.name.clone()], ..new }),
+                }
+            }
+        }
+        let buffers = buffers(&programs, model);
+        Ok(GpuPlan { bytes: buffers.iter().map(|b| b.bytes).sum(), programs, buffers })
+    }
+}
+
+/// What the scene needs, whatever the stage.
+fn choice(scene: &Scene) -> Choice {
+    Choice {
+        element: scene.body.element,
+        law: scene.body.law,
+        viscous: scene.body.viscosity.is_some(),
+        road: scene.road.is_some(),
+        friction: scene.friction.is_some(),
+        gravity: scene.gravity != [0.0; 3],
+        damping: false,
+        rim: if scene.rim.is_some() { RimKind::Prescribed } else { RimKind::None },
+        plus: false,
+    }
+}
+
+/// Programs that are the same in every stage.
+fn scene_kernels(scene: &Scene) -> Vec<(Kernel, &'static str)> {
+    let mut kernels = vec![
+        (Kernel::ElementForce, "every step"),
+        (Kernel::ElementEnergy, "every window"),
+        (Kernel::Gather, "for the critical step"),
+        (Kernel::Reduce, "every window"),
+    ];
+    kernels.extend(scene.road.map(|_| (Kernel::SurfaceState, "every window")));
+    kernels.extend(scene.rim.as_ref().map(|_| (Kernel::Rebase, "when the wheel has rolled a grain further")));
+    kernels
+}
+
+/// Programs that depend on the stage's damping and rim.
+fn stage_kernels(choice: &Choice) -> Vec<(Kernel, &'static str)> {
+    let mut kernels = vec![(Kernel::Node, "every step"), (Kernel::NodeProbe, "every window")];
+    if choice.rim == RimKind::Free {
+        kernels.insert(0, (Kernel::Rim, "every step"));
+    }
+    kernels
+}
+
+fn program(choice: &Choice, kernel: Kernel, runs: &'static str) -> Result<Program> {
+    let parts = choice.parts(kernel);
+    let entry = parts.iter().find_map(|part| part.strip_prefix("kernels/")).unwrap_or("?");
+    let module = choice.module(kernel)?;
+    Ok(Program {
+        kernel: entry.into(),
+        stages: Vec::new(),
+        runs,
+        functions: module.functions.len(),
+        bindings: bindings(&module)?,
+        parts,
+    })
+}
+
+/// Bindings of a module, in their order.
+fn bindings(module: &Module) -> Result<Vec<Binding>> {
+    let mut found = Vec::new();
+    for (_, variable) in module.global_variables.iter() {
+        let Some(resource) = &variable.binding else { continue };
+        let access = match variable.space {
+            AddressSpace::Uniform => "uniform",
+            AddressSpace::Storage { access } if access.contains(StorageAccess::STORE) => "read, write",
+            _ => "read",
+        };
+        let (stride, array) = match module.types[variable.ty].inner {
+            TypeInner::Array { stride, size: naga::ArraySize::Dynamic, .. } => (stride, true),
+            ref inner => (inner.size(module.to_ctx()), false),
+        };
+        let name = variable.name.clone().unwrap_or_default();
+        found.push(Binding { binding: resource.binding, name, access, stride, array });
+    }
+    found.sort_by_key(|b| b.binding);
+    let double = found.windows(2).find(|pair| pair[0].binding == pair[1].binding);
+    match double {
+        None => Ok(found),
+        Some(pair) => Err(Error::Device {
+            adapter: "shader composition".into(),
+            detail: format!("{} and {} share binding {}", pair[0].name, pair[1].name, pair[0].binding),
+        }),
+    }
+}
+
+/// Buffers behind the bindings: programs that read what others write call the same buffer by another name.
+fn buffers(programs: &[Program], model: &Model) -> Vec<Buffer> {
+    let mut by_name: BTreeMap<&str, Buffer> = BTreeMap::new();
+    for binding in programs.iter().flat_map(|p| &p.bindings) {
+        let name = binding.name.trim_end_matches("_in").trim_end_matches("_now");
+        let entries = if binding.array { entries(name, model) } else { Some(1) };
+        if let Some(entries) = entries {
+            let bytes = entries * u64::from(binding.stride);
+            by_name.entry(name).or_insert(Buffer { name: name.into(), entries, bytes });
+        }
+    }
+    let mut buffers: Vec<Buffer> = by_name.into_values().collect();
+    buffers.sort_by_key(|b| std::cmp::Reverse(b.bytes));
+    buffers
+}
+
+/// Entries of an array on this mesh; `None`: it is bound to other arrays, or does not grow with the mesh.
+fn entries(name: &str, model: &Model) -> Option<u64> {
+    let mesh = &model.mesh;
+    let count = match name {
+        "hexes" | "class_of" | "energies" | "viscous_work" => model.element_count(),
+        "slots" | "corners" => 8 * model.element_count(),
+        "classes" => model.classes.len(),
+        "corner_start" => model.node_count() + 1,
+        "nodes" | "positions" | "positions_lo" | "velocities" | "forces" | "works" | "probes" => {
+            model.node_count()
+        }
+        "rim_nodes" | "rim_arms" | "rim_sums" => mesh.rim.len(),
+        "surface_nodes" | "surface_sums" => mesh.surface.len(),
+        "surface_states" => 2 * mesh.surface.len(),
+        _ => return None,
+    };
+    Some(count as u64)
+}

@@ -1,0 +1,125 @@
+//! Stages, optional pieces and outputs, in words.
+
+use serde::Serialize;
+
+use super::Piece;
+use crate::cli::estimate::Steps;
+use crate::cli::format::si;
+use crate::scene::{
+    Drive, Field, Friction, InitialVelocity, Method, Picture, RimMotion, Road, Scene, Snapshots, Stage,
+};
+
+/// A stage as it will run.
+#[derive(Debug, Serialize)]
+pub struct StagePlan {
+    pub name: String,
+    pub method: String,
+    /// The longest it may take.
+    pub duration_s: f64,
+    pub steps_at_most: u64,
+    /// Mass damping [1/s]; 0: none.
+    pub mass_damping_per_s: f64,
+    pub initial_velocity: Option<&'static str>,
+    /// Components of the rim that do not hold.
+    pub rim: Vec<String>,
+}
+
+pub fn plans(scene: &Scene, steps: &Steps) -> Vec<StagePlan> {
+    let plan = |(stage, &steps_at_most): (&Stage, &u64)| StagePlan {
+        name: stage.name.clone(),
+        method: match stage.method {
+            Method::Explicit => "explicit".into(),
+            Method::QuasiStatic { kinetic_ratio, residual } => {
+                format!(
+                    "quasi-static, until kinetic/strain energy <= {kinetic_ratio:e} and residual <= {residual:e}"
+                )
+            }
+        },
+        duration_s: stage.duration,
+        steps_at_most,
+        mass_damping_per_s: stage.mass_damping,
+        initial_velocity: stage.initial_velocity.map(|v| match v {
+            InitialVelocity::Rim => "every node starts with the rim's rigid motion",
+            InitialVelocity::Zero => "everything starts at rest",
+        }),
+        rim: rim(&stage.rim),
+    };
+    scene.stages.iter().zip(&steps.by_stage).map(plan).collect()
+}
+
+fn rim(motion: &RimMotion) -> Vec<String> {
+    let [length, angle] = [["m", "N", "kg"], ["rad", "N m", "kg m2"]];
+    let units = [length, length, length, angle, angle, angle];
+    let names = ["x", "y", "z", "steer", "camber", "spin"];
+    let moving = motion.drives().into_iter().zip(names).zip(units);
+    moving
+        .filter_map(|((drive, name), units)| Some(format!("{name} {}", motion_text(drive, units)?)))
+        .collect()
+}
+
+fn motion_text(drive: Drive, [way, load_unit, mass_unit]: [&str; 3]) -> Option<String> {
+    let over = |ramp: f64| if ramp > 0.0 { format!(" over {}", si(ramp, "s")) } else { String::new() };
+    match drive {
+        Drive::Hold => None,
+        Drive::Displacement { to, ramp } => Some(format!("to {}{}", si(to, way), over(ramp))),
+        Drive::Velocity { to, ramp } => Some(format!("at {}{}", si(to, &format!("{way}/s")), over(ramp))),
+        Drive::Free { mass, load, ramp } => {
+            Some(format!("free under {load} {load_unit}{}, rim {mass} {mass_unit}", over(ramp)))
+        }
+    }
+}
+
+/// Optional parts of the physics, those left out included.
+pub fn pieces(scene: &Scene) -> Vec<Piece> {
+    let any_damping = scene.stages.iter().filter(|s| s.mass_damping > 0.0).map(|s| format!("{:?}", s.name));
+    let damped: Vec<String> = any_damping.collect();
+    let free = scene.stages.iter().any(|s| s.rim.drives().iter().any(|d| matches!(d, Drive::Free { .. })));
+    let piece = |name, detail| Piece { name, detail };
+    vec![
+        piece("viscosity", scene.body.viscosity.map(|eta| format!("Kelvin-Voigt, {eta} Pa s in shear"))),
+        piece("mass damping", (!damped.is_empty()).then(|| format!("in stage {}", damped.join(", ")))),
+        piece("gravity", (scene.gravity != [0.0; 3]).then(|| format!("{:?} m/s2", scene.gravity))),
+        piece("road", scene.road.map(road)),
+        piece(
+            "friction",
+            scene.friction.map(|Friction::Coulomb { mu }| format!("Coulomb, mu = {mu}, stick and slip")),
+        ),
+        piece(
+            "rim",
+            scene
+                .rim
+                .as_ref()
+                .map(|_| if free { "rigid, some components free" } else { "rigid, prescribed" }.into()),
+        ),
+    ]
+}
+
+fn road(Road::Plane { point, normal, velocity }: Road) -> String {
+    let moving =
+        if velocity == [0.0; 3] { "at rest".into() } else { format!("moving with {velocity:?} m/s") };
+    format!("rigid plane through {point:?} m, normal {normal:?}, {moving}")
+}
+
+/// What a run would write.
+pub fn outputs(scene: &Scene) -> Vec<String> {
+    let snapshots = match scene.output.snapshots {
+        Snapshots::None => "no snapshots".into(),
+        Snapshots::StageEnds => "snapshots at the end of every stage".into(),
+        Snapshots::Every(s) => format!("snapshots every {} and at the end of every stage", si(s, "s")),
+    };
+    let picture = |p: &Picture| match p {
+        Picture::Footprint => "footprint".to_string(),
+        Picture::Body(field) => format!("body coloured by {}", field_name(*field)),
+    };
+    let pictures: Vec<String> = scene.output.pictures.iter().map(picture).collect();
+    let pictures = if pictures.is_empty() {
+        "no pictures".into()
+    } else {
+        format!("pictures of every snapshot: {}", pictures.join(", "))
+    };
+    vec![format!("a row of history every {}", si(scene.output.sample, "s")), snapshots, pictures]
+}
+
+fn field_name(field: Field) -> &'static str {
+    crate::cli::pictures::FIELDS.iter().find(|(_, f)| *f == field).map_or("", |(name, _)| name)
+}

@@ -1,0 +1,245 @@
+//! Which engine runs a scene, in which precision, and why.
+
+use clap::{Args, ValueEnum};
+
+use super::estimate::{self, Steps};
+use super::format::{duration, updates};
+use crate::cpu;
+use crate::engine::Engine;
+use crate::gpu::{AdapterReport, Gpu, GpuEngine, adapters};
+use crate::model::Model;
+use crate::scene::Scene;
+use crate::{Error, Result};
+
+/// Engines a user can ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum EngineChoice {
+    /// A real GPU if there is one, else the faster of a software adapter and the CPU
+    #[default]
+    Auto,
+    /// The GPU engine, on a software adapter if there is no other
+    Gpu,
+    /// The multi-threaded CPU engine
+    Cpu,
+}
+
+/// Precisions a user can ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Precision {
+    /// Double (CPU only; the default there)
+    F64,
+    /// Single (the default on a GPU)
+    F32,
+    /// Single with positions as pairs (GPU only)
+    #[value(name = "f32+")]
+    F32Plus,
+}
+
+impl Precision {
+    /// Its name in arguments and summaries.
+    pub fn name(self) -> &'static str {
+        match self {
+            Precision::F64 => "f64",
+            Precision::F32 => "f32",
+            Precision::F32Plus => "f32+",
+        }
+    }
+}
+
+/// How the engine is asked for.
+#[derive(Debug, Clone, Args)]
+pub struct EngineArgs {
+    /// Who computes
+    #[arg(long, value_enum, default_value_t)]
+    pub engine: EngineChoice,
+    /// Arithmetic; default f64 on the CPU, f32 on a GPU
+    #[arg(long, value_enum)]
+    pub precision: Option<Precision>,
+    /// Threads of the CPU engine; 0: one a core. Results do not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub threads: usize,
+    /// Take the GPU adapter whose name contains this
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+}
+
+impl EngineArgs {
+    /// Arguments that exclude each other.
+    pub fn conflict(&self) -> Option<&'static str> {
+        let conflict = self.engine == EngineChoice::Cpu && self.adapter.is_some();
+        conflict.then_some("--adapter names a GPU adapter, but --engine cpu uses none")
+    }
+}
+
+/// The precision of each engine that may run a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Candidates {
+    pub cpu: Option<Precision>,
+    pub gpu: Option<Precision>,
+}
+
+/// Who may run a scene.
+///
+/// # Errors
+/// [`Error::Unsupported`] for an engine that does not have the precision.
+pub fn candidates(engine: EngineChoice, precision: Option<Precision>) -> Result<Candidates> {
+    use Precision::{F32, F32Plus, F64};
+    let cpu = Some(precision.unwrap_or(F64)).filter(|p| *p != F32Plus);
+    let gpu = Some(precision.unwrap_or(F32)).filter(|p| *p != F64);
+    let missing =
+        |what: &str, instead: &str| Error::Unsupported { what: what.into(), instead: instead.into() };
+    match engine {
+        EngineChoice::Auto => Ok(Candidates { cpu, gpu }),
+        EngineChoice::Cpu if cpu.is_none() => {
+            Err(missing("--precision f32+ on the CPU engine", "use f64 or f32 there, or --engine gpu"))
+        }
+        EngineChoice::Gpu if gpu.is_none() => {
+            Err(missing("--precision f64 on the GPU engine", "use f32 or f32+ there, or --engine cpu"))
+        }
+        EngineChoice::Cpu => Ok(Candidates { cpu, gpu: None }),
+        EngineChoice::Gpu => Ok(Candidates { cpu: None, gpu }),
+    }
+}
+
+/// The adapter that is taken: the first that can be used and whose name contains `name`, in the order of
+/// [`adapters`].
+pub fn usable<'a>(reports: &'a [AdapterReport], name: Option<&str>) -> Option<&'a AdapterReport> {
+    let named = |r: &AdapterReport| name.is_none_or(|n| r.name.to_lowercase().contains(&n.to_lowercase()));
+    reports.iter().find(|r| r.unusable.is_none() && named(r))
+}
+
+/// An engine at rest, ready to run.
+pub struct Chosen {
+    pub engine: Box<dyn Engine>,
+    /// Why this one, in words.
+    pub reason: String,
+}
+
+/// Builds the engine that runs a scene.
+///
+/// # Errors
+/// [`Error::Unsupported`] for a precision the engine does not have; [`Error::NoAdapter`], [`Error::TooLarge`],
+/// [`Error::Device`] if a GPU was asked for and cannot be had.
+pub fn choose(args: &EngineArgs, model: &Model, scene: &Scene) -> Result<Chosen> {
+    let asked = |what: &str| format!("asked for with {what}");
+    match candidates(args.engine, args.precision)? {
+        Candidates { cpu: Some(precision), gpu: None } => {
+            let reason = match args.engine {
+                EngineChoice::Auto => "only the CPU engine has f64".into(),
+                _ => asked("--engine cpu"),
+            };
+            Ok(Chosen { engine: cpu(precision, args.threads, model, scene), reason })
+        }
+        Candidates { cpu: None, gpu: Some(precision) } => {
+            let reason = match args.engine {
+                EngineChoice::Auto => "only the GPU engine has f32+".into(),
+                _ => asked("--engine gpu"),
+            };
+            Ok(Chosen { engine: gpu(args.adapter.as_deref(), precision, model, scene)?, reason })
+        }
+        Candidates { cpu: Some(on_cpu), gpu: Some(on_gpu) } => {
+            Competition { args, model, scene, on_cpu, on_gpu }.decide()
+        }
+        Candidates { cpu: None, gpu: None } => unreachable!("every precision has an engine"),
+    }
+}
+
+/// The CPU engine.
+pub(super) fn cpu(precision: Precision, threads: usize, model: &Model, scene: &Scene) -> Box<dyn Engine> {
+    let precision = match precision {
+        Precision::F32 => cpu::Precision::F32,
+        Precision::F64 | Precision::F32Plus => cpu::Precision::F64,
+    };
+    cpu::engine(model, scene, precision, threads)
+}
+
+/// The GPU engine on the best adapter, or on the one called `name`.
+pub(super) fn gpu(
+    name: Option<&str>,
+    precision: Precision,
+    model: &Model,
+    scene: &Scene,
+) -> Result<Box<dyn Engine>> {
+    on_gpu(&Gpu::open(name)?, precision, model, scene)
+}
+
+fn on_gpu(gpu: &Gpu, precision: Precision, model: &Model, scene: &Scene) -> Result<Box<dyn Engine>> {
+    Ok(Box::new(GpuEngine::new(gpu, model, scene, precision == Precision::F32Plus)?))
+}
+
+/// Runs that the CPU engine ends sooner than this [s] are not worth a try on a software adapter: to translate the
+/// kernels for one takes it 4 to 8 s of the same cores.
+const SHORT: f64 = 10.0;
+
+/// Both engines may run the scene.
+struct Competition<'a> {
+    args: &'a EngineArgs,
+    model: &'a Model,
+    scene: &'a Scene,
+    on_cpu: Precision,
+    on_gpu: Precision,
+}
+
+impl Competition<'_> {
+    fn decide(&self) -> Result<Chosen> {
+        let reports = adapters();
+        let name = self.args.adapter.as_deref();
+        match usable(&reports, name) {
+            Some(report) if report.software => self.measured(&report.name),
+            Some(report) => self.gpu_or_why_not(&report.name),
+            // Who names an adapter does not want the CPU instead: the error says what there is.
+            None if name.is_some() => {
+                let engine = gpu(name, self.on_gpu, self.model, self.scene)?;
+                Ok(Chosen { engine, reason: "named with --adapter".into() })
+            }
+            None => self.cpu("no GPU adapter can be used"),
+        }
+    }
+
+    fn cpu(&self, reason: &str) -> Result<Chosen> {
+        let engine = cpu(self.on_cpu, self.args.threads, self.model, self.scene);
+        Ok(Chosen { engine, reason: reason.into() })
+    }
+
+    fn open(&self, name: &str) -> Result<(Gpu, Box<dyn Engine>)> {
+        let gpu = Gpu::open(Some(name))?;
+        let engine = on_gpu(&gpu, self.on_gpu, self.model, self.scene)?;
+        Ok((gpu, engine))
+    }
+
+    /// A real GPU is taken without a race, unless it cannot be had.
+    fn gpu_or_why_not(&self, name: &str) -> Result<Chosen> {
+        match self.open(name) {
+            Ok((_, engine)) => Ok(Chosen { engine, reason: format!("{name} is a GPU") }),
+            Err(error) if self.args.adapter.is_some() => Err(error),
+            Err(error) => self.cpu(&format!("{name} could not be used: {error}")),
+        }
+    }
+
+    /// The faster of the CPU engine and a software adapter.
+    fn measured(&self, name: &str) -> Result<Chosen> {
+        let steps = Steps::of(self.scene, self.model)?;
+        let rate =
+            |engine: &mut dyn Engine| estimate::rate(engine, self.model, self.scene, steps.element_bound_s);
+        let cpu_rate = rate(&mut *self.cpu("")?.engine)?;
+        let cpu_text = format!("cpu {}: {}", self.on_cpu.name(), updates(cpu_rate));
+        let seconds = steps.seconds(self.model, cpu_rate);
+        if seconds < SHORT {
+            let time = duration(seconds);
+            return self.cpu(&format!("{cpu_text}, about {time} in all: too short to try {name}"));
+        }
+        let (gpu, gpu_rate) = match self.open(name).and_then(|(gpu, mut e)| Ok((gpu, rate(&mut *e)?))) {
+            Ok(measured) => measured,
+            Err(error) => return self.cpu(&format!("{cpu_text}; {name} could not be used: {error}")),
+        };
+        if cpu_rate >= gpu_rate {
+            return self.cpu(&format!("{cpu_text} against {} on {name}", updates(gpu_rate)));
+        }
+        let engine = on_gpu(&gpu, self.on_gpu, self.model, self.scene)?;
+        let rate = updates(gpu_rate);
+        Ok(Chosen {
+            engine,
+            reason: format!("gpu {}: {rate} on {name} against {cpu_text}", self.on_gpu.name()),
+        })
+    }
+}

@@ -1,0 +1,71 @@
+//! How many steps a scene takes, and how fast an engine takes them.
+
+use std::time::{Duration, Instant};
+
+use crate::Result;
+use crate::engine::Engine;
+use crate::model::Model;
+use crate::run::{Motion, stability};
+use crate::scene::Scene;
+
+/// Steps of a scene at the step that single elements allow.
+#[derive(Debug, Clone, serde::Serialize)]
+pub struct Steps {
+    /// Largest step that is stable for every element by itself, at rest [s].
+    pub element_bound_s: f64,
+    /// The same times the scene's safety factor [s].
+    pub dt_s: f64,
+    /// Steps of every stage; a quasi-static one may settle sooner.
+    pub by_stage: Vec<u64>,
+    pub total: u64,
+}
+
+impl Steps {
+    pub fn of(scene: &Scene, model: &Model) -> Result<Steps> {
+        let element_bound_s = stability::element_bound(model)?;
+        let dt_s = scene.safety * element_bound_s;
+        let by_stage: Vec<u64> = scene.stages.iter().map(|s| (s.duration / dt_s).ceil() as u64).collect();
+        let total = by_stage.iter().sum();
+        Ok(Steps { element_bound_s, dt_s, by_stage, total })
+    }
+
+    /// Wall time at a rate of element updates per second [s].
+    pub fn seconds(&self, model: &Model, rate: f64) -> f64 {
+        self.total as f64 * model.element_count() as f64 / rate
+    }
+}
+
+/// Element updates per second of an engine that takes the first steps of the scene. The engine is used up: its state
+/// is no longer that of a start.
+pub fn rate(engine: &mut dyn Engine, model: &Model, scene: &Scene, element_bound: f64) -> Result<f64> {
+    /// A batch as long as this is measured well enough.
+    const LONG_ENOUGH: Duration = Duration::from_millis(100);
+    /// More steps are never taken: a small scene's rate is known by then, and its body has hardly moved.
+    const MOST: usize = 512;
+    // Stable whatever safety the scene asks for.
+    let dt = 0.5 * element_bound;
+    let [x, y, z] = model.mesh.axle;
+    let rim = [x, y, z, 0.0, 0.0, 0.0];
+    let motion = Motion::at_rest(rim).next(&scene.stages[0], 0.0, rim);
+    engine.begin_stage(&motion.setup(scene.stages[0].mass_damping))?;
+    // The first step also builds what an engine builds on first use.
+    let mut batch = |first: usize, count: usize| -> Result<Duration> {
+        let at = |n: usize| n as f64 * dt;
+        let steps = motion.plan(at(first), dt, if first == 0 { 0.0 } else { dt }, count);
+        let next = motion.plan(at(first + count), dt, dt, 1)[0];
+        let start = Instant::now();
+        engine.advance(&steps)?;
+        engine.sample(&next)?;
+        Ok(start.elapsed())
+    };
+    batch(0, 1)?;
+    let (mut taken, mut count) = (1, 2);
+    loop {
+        let time = batch(taken, count)?;
+        taken += count;
+        if time >= LONG_ENOUGH || taken + 4 * count > MOST {
+            return Ok((model.element_count() * count) as f64 / time.as_secs_f64());
+        }
+        count *= 4;
+    }
+}

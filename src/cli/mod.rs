@@ -1,0 +1,131 @@
+//! The command line: arguments in, files and tables out.
+//!
+//! Results go to stdout, progress and warnings to stderr; exit codes are those of
+//! [`Error::exit_code`](crate::Error::exit_code).
+
+mod adapters;
+mod check;
+pub mod choose;
+mod compare;
+mod estimate;
+mod format;
+mod pictures;
+mod progress;
+mod recorder;
+mod render;
+mod run;
+mod table;
+mod warnings;
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory, Parser, Subcommand};
+
+use crate::scene::Scene;
+use crate::{Error, Result};
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    done
+  2    a wrong argument, or a scene that cannot be used: the message names file, line and key
+  3    something a scene may name one day, but that this version does not have
+  4    no usable GPU adapter, one too small for the scene, or one that failed
+  5    the run failed numerically (an element inverted, a value not finite, a stage that did not settle)
+  6    a file or folder that cannot be read or written, or holds something else
+  130  interrupted: everything computed so far is on disk";
+
+const EXAMPLES: &str = "\
+Examples:
+  hexroll check scenes/lat100_straight.toml
+  hexroll run scenes/lat100_straight.toml
+  hexroll render runs/lat100_straight --view side --field pressure
+  hexroll run scenes/lat100_straight.toml --set body.element=full --out runs/full
+  hexroll compare runs/lat100_straight runs/full";
+
+/// Rubber wheels of eight-node hexahedra, rolling and sliding on rigid roads: explicit dynamics on the GPU and the CPU.
+#[derive(Debug, Parser)]
+#[command(name = "hexroll", version, after_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Simulate a scene and write histories, fields, pictures and a summary
+    #[command(after_help = run::HELP)]
+    Run(run::RunArgs),
+    /// Say what would be modelled and what it would cost; runs nothing
+    #[command(after_help = check::HELP)]
+    Check(check::CheckArgs),
+    /// Draw pictures from the folder of a finished or killed run
+    #[command(after_help = render::HELP)]
+    Render(render::RenderArgs),
+    /// Errors between two runs of one mesh, history by history and field by field
+    #[command(after_help = compare::HELP)]
+    Compare(compare::CompareArgs),
+    /// List the GPU adapters, their limits, and the one that `--engine auto` takes
+    Adapters(adapters::AdaptersArgs),
+}
+
+impl Cli {
+    /// The process's own arguments; help, version and mistakes in them end the process (0, 0, 2).
+    pub fn from_arguments() -> Cli {
+        let cli = Cli::parse();
+        if let Command::Run(run) = &cli.command
+            && let Some(conflict) = run.engine.conflict()
+        {
+            Cli::command().error(ErrorKind::ArgumentConflict, conflict).exit();
+        }
+        cli
+    }
+
+    /// Does what was asked.
+    ///
+    /// # Errors
+    /// Whatever ends a command: see [`Error`].
+    pub fn execute(self) -> Result<()> {
+        match self.command {
+            Command::Run(args) => run::execute(&args),
+            Command::Check(args) => check::execute(&args),
+            Command::Render(args) => render::execute(&args),
+            Command::Compare(args) => compare::execute(&args),
+            Command::Adapters(args) => adapters::execute(&args),
+        }
+    }
+}
+
+/// A scene file with changes.
+#[derive(Debug, Args)]
+struct SceneArgs {
+    /// Scene file (TOML)
+    scene: PathBuf,
+    /// Change an entry of the scene: a dotted path, entries of arrays by index; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<String>,
+}
+
+impl SceneArgs {
+    /// The scene, and its text with the changes in it.
+    fn load(&self) -> Result<(Scene, String)> {
+        let text = std::fs::read_to_string(&self.scene).map_err(Error::io(&self.scene, "read the scene"))?;
+        let file = self.scene.to_string_lossy();
+        Ok((Scene::parse(&text, &file, &self.sets)?, Scene::effective_text(&text, &file, &self.sets)?))
+    }
+}
+
+/// Prints a result. A reader that has seen enough (`| head`) is no error.
+fn print(text: &str) -> Result<()> {
+    match std::io::stdout().lock().write_all(text.as_bytes()) {
+        Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        result => result.map_err(Error::io("stdout", "write the result")),
+    }
+}
+
+fn print_json(value: &impl serde::Serialize) -> Result<()> {
+    let text =
+        serde_json::to_string_pretty(value).map_err(|e| Error::io("stdout", "write the result")(e.into()))?;
+    print(&(text + "\n"))
+}

@@ -1,0 +1,75 @@
+//! Listens to a run: writes it down, shows its progress, ends it on Ctrl-C.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use super::progress::Display;
+use crate::output::RunWriter;
+use crate::record::{Sample, Snapshot};
+use crate::run::{Observer, Progress, Totals};
+use crate::{Error, Result};
+
+static STOP: AtomicBool = AtomicBool::new(false);
+
+/// From now on the first Ctrl-C (or SIGTERM, SIGHUP) asks the run to end, and the second ends the process.
+pub fn listen_for_interrupts() -> Result<()> {
+    let again = || {
+        if STOP.swap(true, Ordering::SeqCst) {
+            std::process::exit(130);
+        }
+        eprintln!("interrupted: ending this window and writing everything; again to end at once");
+    };
+    ctrlc::set_handler(again).map_err(|e| {
+        let source = std::io::Error::other(e);
+        Error::io("Ctrl-C", "listen for interrupts")(source)
+    })
+}
+
+/// The observer of a run.
+pub struct Recorder<'w, 'm> {
+    writer: &'w mut RunWriter<'m>,
+    display: Display,
+    /// Every row so far.
+    pub history: Vec<Sample>,
+    pub snapshots: usize,
+    /// As of the last row: what is known of a run that fails.
+    pub totals: Totals,
+    /// Wall time spent on writing and showing.
+    pub output: Duration,
+}
+
+impl<'w, 'm> Recorder<'w, 'm> {
+    pub fn new(writer: &'w mut RunWriter<'m>, elements: usize) -> Self {
+        let (history, totals, output) = (Vec::new(), Totals::default(), Duration::ZERO);
+        Recorder { writer, display: Display::new(elements), history, snapshots: 0, totals, output }
+    }
+
+    /// Ends the display.
+    pub fn finish(&mut self) {
+        self.display.finish();
+    }
+}
+
+impl Observer for Recorder<'_, '_> {
+    fn sample(&mut self, sample: &Sample, progress: &Progress) -> Result<()> {
+        let start = Instant::now();
+        self.history.push(sample.clone());
+        self.totals = progress.totals.clone();
+        self.writer.sample(sample)?;
+        self.display.update(progress);
+        self.output += start.elapsed();
+        Ok(())
+    }
+
+    fn snapshot(&mut self, snapshot: &Snapshot, stage: &str) -> Result<()> {
+        let start = Instant::now();
+        self.writer.snapshot(snapshot, stage)?;
+        self.snapshots += 1;
+        self.output += start.elapsed();
+        Ok(())
+    }
+
+    fn interrupted(&self) -> bool {
+        STOP.load(Ordering::SeqCst)
+    }
+}

@@ -1,0 +1,141 @@
+//! What a user should know of a scene or a run before believing its numbers.
+
+use crate::model::Model;
+use crate::output::stages;
+use crate::record::Sample;
+use crate::scene::{Drive, Element, MeshSpec, Method, Scene};
+
+/// Warnings that the scene and its mesh give without a run.
+pub fn of(scene: &Scene, model: &Model) -> Vec<String> {
+    [chatter(scene), unstable(scene), locking(scene), flat_elements(model)]
+        .into_iter()
+        .flatten()
+        .chain(coarse_ring(scene))
+        .collect()
+}
+
+/// Constant friction on an elastic body is ill-posed: it needs a little viscosity.
+fn chatter(scene: &Scene) -> Option<String> {
+    let dynamic = scene.stages.iter().any(|s| s.method == Method::Explicit && s.mass_damping == 0.0);
+    (scene.friction.is_some() && scene.body.viscosity.is_none() && dynamic).then(|| {
+        "friction on a purely elastic material chatters, the more the finer the mesh; forces that are to be believed \
+         need a viscosity (body.material.viscosity)"
+            .into()
+    })
+}
+
+fn unstable(scene: &Scene) -> Option<String> {
+    (scene.safety > 1.0).then(|| {
+        format!(
+            "time_step.safety = {} is above 1: steps longer than the critical one are unstable",
+            scene.safety
+        )
+    })
+}
+
+/// Full integration locks where the bulk modulus dominates.
+fn locking(scene: &Scene) -> Option<String> {
+    let ratio = scene.body.law.bulk_modulus() / scene.body.law.shear_modulus();
+    (scene.body.element == Element::Full && ratio > 10.0).then(|| {
+        format!("element \"full\" is too stiff where kappa/G is large (here {ratio:.0}); \"q1p0\" is not")
+    })
+}
+
+/// A hexahedron is as good as its longest side is short.
+fn flat_elements(model: &Model) -> Option<String> {
+    const FLAT: f64 = 5.0;
+    let worst = model.mesh.hexes.iter().map(|hex| aspect(&hex.map(|n| model.mesh.nodes[n as usize])));
+    let worst = worst.fold(1.0, f64::max);
+    (worst > FLAT).then(|| format!("elements are up to {worst:.1} times as long as they are thick"))
+}
+
+/// Longest over shortest mean edge of the three directions.
+fn aspect(corners: &[[f64; 3]; 8]) -> f64 {
+    const EDGES: [[[usize; 2]; 4]; 3] = [
+        [[0, 1], [3, 2], [4, 5], [7, 6]],
+        [[0, 3], [1, 2], [4, 7], [5, 6]],
+        [[0, 4], [1, 5], [2, 6], [3, 7]],
+    ];
+    let length =
+        |&[a, b]: &[usize; 2]| (0..3).map(|d| (corners[a][d] - corners[b][d]).powi(2)).sum::<f64>().sqrt();
+    let means = EDGES.map(|edges| edges.iter().map(length).sum::<f64>());
+    means.iter().copied().fold(0.0, f64::max) / means.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+/// A ring on a road is a polygon: its contact must span a few elements.
+fn coarse_ring(scene: &Scene) -> Vec<String> {
+    /// Sides below which a polygon rolls like one.
+    const SIDES: usize = 24;
+    /// Elements along the contact below which its pressure is not resolved.
+    const ALONG: f64 = 4.0;
+    let MeshSpec::Ring { outer_radius, elements: [sides, radial, _], .. } = scene.body.mesh else {
+        return Vec::new();
+    };
+    let mut warnings = Vec::new();
+    if scene.road.is_none() {
+        return warnings;
+    }
+    if sides < SIDES {
+        warnings.push(format!("a ring of {sides} elements round the circumference rolls like a polygon"));
+    }
+    if radial < 2 {
+        warnings.push("a ring one element thick cannot bend between rim and road".into());
+    }
+    let pressed = scene.stages.iter().filter_map(|s| match s.rim.z {
+        Drive::Displacement { to, .. } if to < 0.0 => Some(-to),
+        _ => None,
+    });
+    if let Some(depth) = pressed.reduce(f64::max) {
+        // The chord that a rigid circle pressed in by `depth` cuts off.
+        let chord = 2.0 * (depth * (2.0 * outer_radius - depth)).max(0.0).sqrt();
+        let along = chord * sides as f64 / (std::f64::consts::TAU * outer_radius);
+        if along < ALONG {
+            warnings
+                .push(format!("the contact spans only about {along:.1} elements along the circumference"));
+        }
+    }
+    warnings
+}
+
+/// Warnings that a history gives: forces that jump from window to window.
+pub fn of_history(scene: &Scene, history: &[Sample]) -> Vec<String> {
+    /// Standard deviation over mean above which a force chatters; an 880-element wheel that rolls smoothly has 1 %.
+    const CHATTERS: f64 = 0.05;
+    if scene.friction.is_none() {
+        return Vec::new();
+    }
+    let spans = stages::spans(history);
+    let explicit = |name: &str| scene.stages.iter().any(|s| s.name == name && s.method == Method::Explicit);
+    let chattering = spans.iter().filter(|span| explicit(&span.stage)).filter_map(|span| {
+        let tail = span.tail();
+        let forces: Vec<f64> = history[span.rows.clone()]
+            .iter()
+            .filter(|s| s.time_s > tail.start)
+            .map(|s| s.road_fz_N)
+            .collect();
+        let share = scatter(&forces);
+        (share > CHATTERS).then(|| {
+            format!(
+                "the road's force in stage {:?} scatters by {:.0} % from window to window about its trend",
+                span.stage,
+                100.0 * share
+            )
+        })
+    });
+    chattering.collect()
+}
+
+/// Standard deviation about a straight line, over the mean; 0 where there is too little to say.
+fn scatter(values: &[f64]) -> f64 {
+    const LEAST: usize = 8;
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    if values.len() < LEAST || mean.abs() < 1e-12 {
+        return 0.0;
+    }
+    let at = |i: usize| i as f64 - 0.5 * (n - 1.0);
+    let spread: f64 = (0..values.len()).map(|i| at(i) * at(i)).sum();
+    let slope = values.iter().enumerate().map(|(i, v)| at(i) * v).sum::<f64>() / spread;
+    let rest = |(i, v): (usize, &f64)| (v - mean - slope * at(i)).powi(2);
+    (values.iter().enumerate().map(rest).sum::<f64>() / n).sqrt() / mean.abs()
+}

@@ -1,0 +1,128 @@
+//! `hexroll check` and `hexroll adapters`: what they say, and that nothing runs.
+
+use serde_json::Value;
+
+use super::program::{Place, shipped};
+
+fn check(place: &Place, arguments: &[&str]) -> Value {
+    let done = place.hexroll(&[&["check", "--json"], arguments].concat()).expect(0);
+    serde_json::from_str(&done.stdout).unwrap()
+}
+
+fn program<'v>(check: &'v Value, kernel: &str) -> &'v Value {
+    let programs = check["gpu"]["programs"].as_array().unwrap();
+    programs.iter().find(|p| p["kernel"] == kernel).unwrap_or_else(|| panic!("no {kernel} in {programs:#?}"))
+}
+
+fn strings(value: &Value) -> Vec<&str> {
+    value.as_array().unwrap().iter().map(|v| v.as_str().unwrap()).collect()
+}
+
+fn bindings(check: &Value, kernel: &str) -> Vec<String> {
+    let list = program(check, kernel)["bindings"].as_array().unwrap();
+    list.iter().map(|b| b["name"].as_str().unwrap().to_string()).collect()
+}
+
+#[test]
+fn the_check_says_what_is_modelled_and_runs_nothing() {
+    let place = Place::new();
+    let text = place.hexroll(&["check", &shipped("lat100_straight.toml")]).expect(0).stdout;
+    for part in [
+        "880 elements of 4 shapes",
+        "1,320 nodes",
+        "G = 2.64 MPa, kappa = 65.1 MPa",
+        "viscosity      -  left out",
+        "gravity        -  left out",
+        "Coulomb, mu = 1",
+        "rigid, prescribed",
+        "quasi-static",
+        "element_force",
+        "bindings",
+        "measured now",
+        "warning: friction on a purely elastic material chatters",
+    ] {
+        assert!(text.contains(part), "{part:?} is missing in\n{text}");
+    }
+    let left: Vec<_> = std::fs::read_dir(place.dir.path()).unwrap().collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
+#[test]
+fn the_wave_speed_and_step_are_those_of_the_material() {
+    let place = Place::new();
+    let check = check(&place, &[&shipped("lat100_straight.toml")]);
+    let number = |path: &str| check.pointer(path).unwrap().as_f64().unwrap();
+    // c_d = sqrt((kappa + 4/3 G)/rho) = sqrt(68.62e6/1100) m/s
+    assert!((number("/body/wave_speed_m_s") - 249.763_6).abs() < 1e-3);
+    // The assembled wheel, rim held, has 1.395e-5 s; single elements are below that, but not by half.
+    let bound = number("/steps/element_bound_s");
+    assert!((0.7e-5..1.395e-5).contains(&bound), "{bound}");
+    assert!((number("/steps/dt_s") / bound - 0.9).abs() < 1e-12);
+    let at_most = (0.2 / (0.9 * bound)).ceil() + (0.1 / (0.9 * bound)).ceil();
+    assert_eq!(number("/steps/total"), at_most);
+    assert!(number("/estimates/0/updates_per_s") > 0.0);
+}
+
+#[test]
+fn programs_hold_only_what_the_scene_uses() {
+    let place = Place::new();
+    place.scene("block.toml", |text| text);
+    let full = check(&place, &["block.toml"]);
+    let parts = strings(&program(&full, "node")["parts"]);
+    assert!(parts.contains(&"friction/coulomb") && parts.contains(&"lib/gravity"), "{parts:?}");
+    assert!(bindings(&full, "node").contains(&"surface_sums".into()));
+    assert!(bindings(&full, "element_force").contains(&"viscous_work".into()));
+
+    let bare = check(
+        &place,
+        &["block.toml", "--set", "friction.coefficient=0", "--set", "body.material.viscosity=0 Pa s"],
+    );
+    let parts = strings(&program(&bare, "node")["parts"]);
+    assert!(!parts.contains(&"friction/coulomb") && parts.contains(&"contact/frictionless"), "{parts:?}");
+    assert!(!bindings(&bare, "element_force").contains(&"viscous_work".into()));
+
+    let bar = check(&place, &[&shipped("bar_wave.toml")]);
+    assert!(!bindings(&bar, "node").contains(&"surface_sums".into()), "no road, no contact");
+    assert!(bindings(&bar, "node").contains(&"rim_sums".into()));
+}
+
+#[test]
+fn memory_grows_with_the_mesh() {
+    let place = Place::new();
+    place.scene("block.toml", |text| text);
+    let slots = |elements: &str| {
+        let check = check(&place, &["block.toml", "--set", &format!("body.mesh.elements={elements}")]);
+        let buffers = check["gpu"]["buffers"].as_array().unwrap().clone();
+        buffers.iter().find(|b| b["name"] == "slots").unwrap()["bytes"].as_u64().unwrap()
+    };
+    // Eight corner forces of four single-precision numbers an element.
+    assert_eq!((slots("[2, 2, 2]"), slots("[4, 5, 6]")), (8 * 128, 120 * 128));
+}
+
+#[test]
+fn a_coarse_wheel_is_warned_of() {
+    let place = Place::new();
+    let warnings = |elements: &str| {
+        let set = format!("body.mesh.elements={elements}");
+        let check = check(&place, &[&shipped("lat100_straight_viscous.toml"), "--set", &set]);
+        check["warnings"].to_string()
+    };
+    assert_eq!(warnings("[44, 4, 5]"), "[]");
+    let coarse = warnings("[12, 1, 5]");
+    for part in ["polygon", "one element thick", "spans only"] {
+        assert!(coarse.contains(part), "{part:?} is missing in {coarse}");
+    }
+}
+
+#[test]
+fn adapters_are_listed_with_the_one_that_is_taken() {
+    let place = Place::new();
+    let text = place.hexroll(&["adapters"]).expect(0);
+    assert!(text.stdout.contains("--engine auto takes "), "{}", text.stdout);
+    assert!(!text.stderr.contains("XDG_RUNTIME_DIR"), "{}", text.stderr);
+    let json: Value = serde_json::from_str(&place.hexroll(&["adapters", "--json"]).expect(0).stdout).unwrap();
+    let seen = hexroll::gpu::adapters();
+    let names: Vec<_> =
+        json["adapters"].as_array().unwrap().iter().map(|a| a["name"].as_str().unwrap()).collect();
+    assert_eq!(names, seen.iter().map(|a| a.name.as_str()).collect::<Vec<_>>());
+}

@@ -1,0 +1,133 @@
+//! Runs that end before their time: interrupted, or diverged. What was computed stays.
+
+use hexroll::output::read;
+
+use super::program::{Place, shipped};
+
+/// The critical step exceeded by half: the highest mode grows about threefold a step.
+#[test]
+fn a_diverging_run_exits_5_and_keeps_its_history() {
+    let place = Place::new();
+    let scene = shipped("bouncing_block.toml");
+    let done = place
+        .hexroll(&["run", &scene, "--engine", "cpu", "--set", "time_step.safety=1.5", "--out", "out"])
+        .expect(5);
+    assert_eq!(done.stderr.lines().filter(|l| l.starts_with("error:")).count(), 1, "{}", done.stderr);
+    let error = done.stderr.lines().find(|l| l.starts_with("error:")).unwrap();
+    assert!(error.contains("step ") && error.contains("element "), "{error}");
+
+    let dir = place.path("out");
+    let history = read::history(&dir).unwrap();
+    assert!(!history.is_empty());
+    assert!(history.iter().all(|s| s.kinetic_J.is_finite() && s.min_jacobian > 0.0), "{history:#?}");
+    let summary = read::summary(&dir).unwrap().unwrap();
+    assert_eq!(summary.time_s, history.last().unwrap().time_s, "the summary is of what was written");
+    assert!(summary.steps > 0 && summary.critical_dt_s > 0.0);
+    let named = summary.warnings.iter().any(|w| w.contains("did not finish") && w.contains("element"));
+    assert!(named, "{:?}", summary.warnings);
+    assert!(summary.warnings.iter().any(|w| w.contains("safety")), "{:?}", summary.warnings);
+}
+
+#[test]
+fn a_stage_that_does_not_settle_exits_5() {
+    let place = Place::new();
+    let scene = shipped("pressed_block.toml");
+    let short = ["--set", "stage.0.duration=21 ms", "--set", "stage.0.settle.residual=1e-12", "--out", "out"];
+    let done = place.hexroll(&[&["run", &scene, "--engine", "cpu"], &short[..]].concat()).expect(5);
+    assert!(done.stderr.contains("\"press\" did not settle"), "{}", done.stderr);
+    assert_eq!(read::history(&place.path("out")).unwrap().len(), 21);
+    assert_eq!(
+        read::snapshots(&place.path("out")).unwrap().len(),
+        1,
+        "the last state is there to be looked at"
+    );
+}
+
+#[cfg(unix)]
+mod interrupted {
+    use std::path::Path;
+    use std::process::{Child, Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    use super::*;
+    use crate::program::Done;
+
+    /// Ends the program if the test fails.
+    struct Running(Option<Child>);
+
+    impl Drop for Running {
+        fn drop(&mut self) {
+            if let Some(child) = &mut self.0 {
+                // It may have ended by itself.
+                _ = child.kill();
+                _ = child.wait();
+            }
+        }
+    }
+
+    impl Running {
+        fn signal(&self, name: &str) {
+            let id = self.0.as_ref().unwrap().id().to_string();
+            assert!(Command::new("kill").args([name, &id]).status().unwrap().success());
+        }
+
+        fn wait(mut self, most: Duration) -> Done {
+            let start = Instant::now();
+            while self.0.as_mut().unwrap().try_wait().unwrap().is_none() {
+                assert!(start.elapsed() < most, "it does not end");
+                std::thread::sleep(Duration::from_millis(20));
+            }
+            Done::from(self.0.take().unwrap().wait_with_output().unwrap())
+        }
+    }
+
+    /// Starts a run that would take hours and waits until some of its history is written.
+    fn start(place: &Place) -> Running {
+        let scene = shipped("spinning_block.toml");
+        let long =
+            ["--set", "stage.0.duration=1000 s", "--set", "output.snapshots=stage-ends", "--out", "out"];
+        let mut command = place.command(&[&["run", &scene, "--engine", "cpu"], &long[..]].concat());
+        let running = Running(Some(command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()));
+        let start = Instant::now();
+        while rows(&place.path("out")) < 3 {
+            assert!(start.elapsed() < Duration::from_secs(120), "no history appears");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        running
+    }
+
+    fn rows(dir: &Path) -> usize {
+        std::fs::read_to_string(dir.join("history.csv")).map_or(0, |t| t.lines().count().saturating_sub(1))
+    }
+
+    #[test]
+    fn ctrl_c_ends_the_window_writes_everything_and_exits_130() {
+        let place = Place::new();
+        let running = start(&place);
+        running.signal("-INT");
+        let done = running.wait(Duration::from_secs(120)).expect(130);
+        assert!(done.stderr.contains("error: interrupted at t = "), "{}", done.stderr);
+        assert!(done.stdout.contains("steps"), "the table is printed: {}", done.stdout);
+
+        let dir = place.path("out");
+        let history = read::history(&dir).unwrap();
+        let summary = read::summary(&dir).unwrap().unwrap();
+        assert_eq!(summary.time_s, history.last().unwrap().time_s);
+        assert!(summary.warnings.iter().any(|w| w.contains("interrupted")), "{:?}", summary.warnings);
+        let snapshots = read::snapshots(&dir).unwrap();
+        assert_eq!(snapshots.len(), 1, "the state at the end is there");
+        assert_eq!(snapshots[0].time, summary.time_s);
+        read::snapshot(&snapshots[0].path).unwrap();
+    }
+
+    #[test]
+    fn a_killed_run_is_readable_but_has_no_summary() {
+        let place = Place::new();
+        let running = start(&place);
+        running.signal("-KILL");
+        running.wait(Duration::from_secs(60));
+        assert!(read::history(&place.path("out")).unwrap().len() >= 3);
+        assert_eq!(read::summary(&place.path("out")).unwrap(), None);
+        place.hexroll(&["compare", "out", "out"]).expect(0);
+    }
+}

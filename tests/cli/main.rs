@@ -1,0 +1,9 @@
+//! The command line as a user meets it: the built program, its files, its messages, its exit codes.
+
+mod checking;
+mod choosing;
+mod comparing;
+mod ending_early;
+mod mistakes;
+mod program;
+mod running;

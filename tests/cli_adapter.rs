@@ -1,0 +1,107 @@
+//! The command line where it needs an adapter (a software one will do): pictures and the GPU engine.
+//!
+//! Without an adapter every trial is reported as ignored.
+
+#[allow(dead_code)] // each of the two targets uses its own part
+#[path = "cli/program.rs"]
+mod program;
+
+use hexroll::output::read;
+use libtest_mimic::{Arguments, Failed, Trial};
+use program::Place;
+
+type Check = fn();
+
+const CHECKS: [(&str, Check); 4] = [
+    ("a_run_draws_the_pictures_its_scene_asks_for", pictures_of_a_run),
+    ("render_draws_other_views_from_the_folder_alone", pictures_again),
+    ("render_of_what_is_not_there_is_an_error", nothing_to_draw),
+    ("the_gpu_engine_runs_a_scene_and_says_on_what", gpu_engine),
+];
+
+fn main() {
+    let arguments = Arguments::from_args();
+    let missing = hexroll::gpu::adapters().iter().all(|a| a.unusable.is_some());
+    let trial = |(name, check): (&str, Check)| {
+        let run = move || -> Result<(), Failed> {
+            check();
+            Ok(())
+        };
+        Trial::test(name, run).with_ignored_flag(missing)
+    };
+    libtest_mimic::run(&arguments, CHECKS.map(trial).into()).exit();
+}
+
+/// A run of the block with pictures.
+fn run(place: &Place) {
+    place.scene("block.toml", |text| text + "pictures = [\"body:von-mises\", \"footprint\"]\n");
+    place.hexroll(&["run", "block.toml", "--engine", "cpu", "--out", "out"]).expect(0);
+}
+
+/// Width and height; panics unless it is a whole PNG with more than one colour.
+fn size(place: &Place, name: &str) -> (u32, u32) {
+    let picture = image::open(place.path(name)).unwrap_or_else(|e| panic!("{name}: {e}")).to_rgba8();
+    let first = *picture.get_pixel(0, 0);
+    assert!(picture.pixels().any(|p| *p != first), "{name} is empty");
+    picture.dimensions()
+}
+
+fn pictures_of_a_run() {
+    let place = Place::new();
+    run(&place);
+    for k in 0..2 {
+        for name in ["body_von-mises", "footprint"] {
+            assert_eq!(size(&place, &format!("out/{name}_{k}.png")), (1600, 900));
+        }
+    }
+    assert_eq!(read::summary(&place.path("out")).unwrap().unwrap().warnings, Vec::<String>::new());
+}
+
+fn pictures_again() {
+    let place = Place::new();
+    run(&place);
+    // The scene file is gone, and the run never finished: the folder has to do.
+    std::fs::remove_file(place.path("block.toml")).unwrap();
+    std::fs::remove_file(place.path("out/summary.json")).unwrap();
+    let more =
+        ["--view", "side", "--field", "pressure", "--field", "velocity", "--footprint", "--size", "640x360"];
+    let done =
+        place.hexroll(&[&["render", "out"], &more[..], &["--snapshot", "0", "--out", "figures"]].concat());
+    let written = done.expect(0).stdout;
+    for name in ["body_pressure_side_0", "body_velocity_side_0", "footprint_side_0"] {
+        let path = format!("figures/{name}.png");
+        assert_eq!(size(&place, &path), (640, 360));
+        assert!(written.contains(&path), "{written}");
+    }
+    let all = place.hexroll(&["render", "out", "--snapshot", "all", "--field", "displacement"]).expect(0);
+    assert_eq!(all.stdout.lines().count(), 2, "one a snapshot");
+    let usual = place.hexroll(&["render", "out"]).expect(0).stdout;
+    assert_eq!(
+        usual, "out/body_von-mises_1.png\nout/footprint_1.png\n",
+        "what the scene asks for, of the last one"
+    );
+}
+
+fn nothing_to_draw() {
+    let place = Place::new();
+    run(&place);
+    let late = place.hexroll(&["render", "out", "--snapshot", "2"]).expect(6);
+    assert!(late.stderr.contains("no snapshot 2"), "{}", late.stderr);
+    let tiny = place.hexroll(&["render", "out", "--size", "8x8"]).expect(6);
+    assert!(tiny.stderr.contains("8 x 8"), "{}", tiny.stderr);
+}
+
+/// Single precision on a smooth scene of some 30 steps: 1e-5 of the displacement, as the parity of the engines asks.
+fn gpu_engine() {
+    let place = Place::new();
+    run(&place);
+    place.hexroll(&["run", "block.toml", "--engine", "gpu", "--out", "gpu"]).expect(0);
+    let summary = read::summary(&place.path("gpu")).unwrap().unwrap();
+    assert_eq!((summary.engine.as_str(), summary.precision.as_str()), ("gpu", "f32"));
+    assert!(summary.adapter.is_some_and(|a| !a.is_empty()));
+    let comparison = hexroll::output::compare::compare(&place.path("out"), &place.path("gpu")).unwrap();
+    for snapshot in &comparison.snapshots {
+        let displacement = snapshot.fields.iter().find(|f| f.name == "displacement").unwrap();
+        assert!(displacement.relative_l2.unwrap() < 1e-5, "{displacement:?}");
+    }
+}
