@@ -91,7 +91,9 @@ fn nothing_to_draw() {
     assert!(tiny.stderr.contains("8 x 8"), "{}", tiny.stderr);
 }
 
-/// Single precision on a smooth scene of some 30 steps: 1e-5 of the displacement, as the parity of the engines asks.
+/// The engines' own parity is tested elsewhere; this is the same scene on both, f32 against f64. A block that lands
+/// shows where each node's last fraction of a step ended: the CPU engine's f32 is 7e-5 away from its f64 too. Another
+/// material constant by 0.1 % would be 1e-3.
 fn gpu_engine() {
     let place = Place::new();
     run(&place);
@@ -102,6 +104,6 @@ fn gpu_engine() {
     let comparison = hexroll::output::compare::compare(&place.path("out"), &place.path("gpu")).unwrap();
     for snapshot in &comparison.snapshots {
         let displacement = snapshot.fields.iter().find(|f| f.name == "displacement").unwrap();
-        assert!(displacement.relative_l2.unwrap() < 1e-5, "{displacement:?}");
+        assert!(displacement.relative_l2.unwrap() < 3e-4, "{displacement:?}");
     }
 }

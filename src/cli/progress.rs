@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::format::{duration, updates};
+use super::format::{duration, si, updates};
 use crate::run;
 
 /// Parts the bar is divided into.
@@ -35,7 +35,7 @@ impl Display {
     pub fn new(elements: usize) -> Display {
         let start = Instant::now();
         let shown = if std::io::stderr().is_terminal() {
-            let style = ProgressStyle::with_template("{bar:24} {percent:>3} %  {wide_msg}");
+            let style = ProgressStyle::with_template("{bar:12} {percent:>3} %  {wide_msg}");
             let bar = ProgressBar::new(PARTS);
             Shown::Bar(bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())))
         } else {
@@ -50,8 +50,8 @@ impl Display {
         let text = status(progress, share, self.elements, self.start.elapsed().as_secs_f64());
         match &mut self.shown {
             Shown::Bar(bar) => {
-                bar.set_position((share * PARTS as f64) as u64);
                 bar.set_message(text);
+                bar.set_position((share * PARTS as f64) as u64);
             }
             Shown::Lines { share: shown, at, next } => {
                 let line = format!("{:>3.0} %  {text}", 100.0 * share);
@@ -74,15 +74,15 @@ impl Display {
     }
 }
 
-/// One line; rates are means since the start.
+/// One line, the most wanted first: a narrow terminal cuts it off. Rates are means since the start.
 fn status(progress: &run::Progress, share: f64, elements: usize, seconds: f64) -> String {
     let steps = progress.steps as f64 / seconds;
     format!(
-        "{}  t = {:.4e} of {:.4e} s  {steps:.2e} steps/s  {}  ETA {}",
+        "{}  {} of {}  ETA {}  {steps:.1e} steps/s  {}",
         progress.stage,
-        progress.time,
-        progress.end,
-        updates(steps * elements as f64),
+        si(progress.time, "s"),
+        si(progress.end, "s"),
         duration(seconds * (1.0 - share) / share),
+        updates(steps * elements as f64),
     )
 }

@@ -103,7 +103,8 @@ fn element_text(element: Element) -> String {
 }
 
 fn constants(law: &Law) -> String {
-    let mpa = |v: f64| format!("{} MPa", v * 1e-6);
+    // Ten digits: what the file says, without the round-off of reading it.
+    let mpa = |v: f64| format!("{} MPa", (v * 1e4).round() / 1e10);
     match *law {
         Law::NeoHookean { g0, g1 } => format!("g0 = {}, g1 = {}", mpa(g0), mpa(g1)),
         Law::MooneyRivlin { g0, g1, g2 } | Law::MooneyRivlinEq4 { g0, g1, g2 } => {

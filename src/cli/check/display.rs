@@ -4,7 +4,7 @@ use std::fmt::{Display, Formatter, Result};
 
 use super::programs::{GpuPlan, Program};
 use super::{Body, Check, StagePlan};
-use crate::cli::format::{bytes, count, duration, si, updates};
+use crate::cli::format::{bytes, count, duration, plural, si, updates};
 
 impl Display for Check {
     fn fmt(&self, f: &mut Formatter) -> Result {
@@ -55,7 +55,7 @@ impl Display for Body {
         let mut line = |name: &str, value: String| writeln!(f, "  {name:<14} {value}");
         line("mesh", self.mesh.clone())?;
         let [e, n] = [self.elements, self.nodes].map(|n| count(n as u64));
-        line("", format!("{e} elements of {} shapes, {n} nodes", self.shape_classes))?;
+        line("", format!("{e} elements of {}, {n} nodes", plural(self.shape_classes, "shape")))?;
         let rim =
             self.rim.as_ref().map_or("no rim".into(), |rim| format!("{} of the rim ({rim})", self.rim_nodes));
         line("", format!("{} surface nodes, {rim}", self.surface_nodes))?;
@@ -123,7 +123,7 @@ impl Display for Program {
     fn fmt(&self, f: &mut Formatter) -> Result {
         let stages =
             if self.stages.is_empty() { String::new() } else { format!(" in {}", self.stages.join(", ")) };
-        writeln!(f, "  {:<14} {}{stages}; {} functions", self.kernel, self.runs, self.functions)?;
+        writeln!(f, "  {:<14} {}{stages}; {}", self.kernel, self.runs, plural(self.functions, "function"))?;
         writeln!(f, "  {:<14} {}", "  parts", self.parts.join(" "))?;
         let bindings: Vec<String> =
             self.bindings.iter().map(|b| format!("{} {} ({})", b.binding, b.name, b.access)).collect();
