@@ -5,10 +5,10 @@ use super::family::{LawFamily, ViscosityFamily};
 use super::state::View;
 use crate::engine::EnergyTotals;
 use crate::model::Model;
-use crate::physics::element::{Class, Corners, Energy, Formulation, Full, Q1p0, UniformGradient};
+use crate::physics::element::{Class, Corners, Formulation, Full, Q1p0, UniformGradient};
 use crate::physics::lanes::{Array, Lanes, Level};
 use crate::physics::material::{Law, Viscosity};
-use crate::physics::scalar::Scalar;
+use crate::physics::scalar::{Real, Scalar};
 use crate::scene;
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -138,7 +138,6 @@ where
 
 #[inline(always)]
 fn sum_lanes<N: Lanes>(values: N, count: usize) -> f64 {
-    use crate::physics::scalar::Real;
     let mut sum = 0.0;
     for lane in 0..count {
         sum += values.lane(lane).to_f64();
@@ -156,22 +155,21 @@ fn first_failed<N: Lanes>(min_j: N, batch: &ElementBatch) -> Option<usize> {
     (0..batch.count).find(bad).map(|lane| batch.first + lane)
 }
 
-#[inline(always)]
-unsafe fn energies_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
-    composed: &Composed<F, L, V>,
-    elements: &Elements<N::Real>,
-    view: &View<N::Real>,
+/// Once a sample, so element by element will do.
+unsafe fn energies_of<T: Real, F: Formulation, L: LawFamily>(
+    law: &scene::Law,
+    elements: &Elements<T>,
+    view: &View<T>,
 ) -> EnergyTotals {
-    use crate::physics::scalar::Real;
-    let law = <L::Law<N> as Law<N>>::new(&composed.law);
+    let law = <L::Law<T> as Law<T>>::new(law);
     let mut totals = EnergyTotals::default();
     for batch in &elements.batches {
-        let class: Class<N> = elements.classes[batch.class].splat();
-        let energy: Energy<N> = F::energy(&law, &class, &unsafe { corners::<N>(batch, &view.x) });
-        totals.strain += sum_lanes(energy.strain, batch.count);
-        totals.hourglass += sum_lanes(energy.hourglass, batch.count);
-        for lane in 0..batch.count {
-            totals.min_jacobian = totals.min_jacobian.min(energy.min_j.lane(lane).to_f64());
+        for hex in &elements.hexes[batch.first..batch.first + batch.count] {
+            let x = hex.map(|n| [0, 1, 2].map(|d| unsafe { *view.x[d].add(n as usize) }));
+            let energy = F::energy(&law, &elements.classes[batch.class], &x);
+            totals.strain += energy.strain.to_f64();
+            totals.hourglass += energy.hourglass.to_f64();
+            totals.min_jacobian = totals.min_jacobian.min(energy.min_j.to_f64());
         }
     }
     totals
@@ -179,7 +177,7 @@ unsafe fn energies_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily
 
 /// One implementation a precision: which lane type each level of instructions uses.
 macro_rules! dispatched {
-    ($real:ty, $portable:ty, $avx2:ty, $avx512:ident) => {
+    ($real:ty, $portable:ty, $avx2:ident, $avx512:ident) => {
         impl<F: Formulation, L: LawFamily, V: ViscosityFamily> Kernel<$real> for Composed<F, L, V> {
             unsafe fn forces(
                 &self,
@@ -200,6 +198,7 @@ macro_rules! dispatched {
                         power: *mut f64,
                         weight: f64,
                     ) -> Failed {
+                        use crate::physics::lanes::$avx2;
                         unsafe { forces_in::<$avx2, F, L, V>(this, elements, range, view, power, weight) }
                     }
                     #[target_feature(enable = "avx512f,fma")]
@@ -226,42 +225,21 @@ macro_rules! dispatched {
             }
 
             unsafe fn energies(&self, elements: &Elements<$real>, view: &View<$real>) -> EnergyTotals {
-                #[cfg(target_arch = "x86_64")]
-                {
-                    #[target_feature(enable = "avx2,fma")]
-                    unsafe fn avx2<F: Formulation, L: LawFamily, V: ViscosityFamily>(
-                        this: &Composed<F, L, V>,
-                        elements: &Elements<$real>,
-                        view: &View<$real>,
-                    ) -> EnergyTotals {
-                        unsafe { energies_in::<$avx2, F, L, V>(this, elements, view) }
-                    }
-                    #[target_feature(enable = "avx512f,fma")]
-                    unsafe fn avx512<F: Formulation, L: LawFamily, V: ViscosityFamily>(
-                        this: &Composed<F, L, V>,
-                        elements: &Elements<$real>,
-                        view: &View<$real>,
-                    ) -> EnergyTotals {
-                        use crate::physics::lanes::$avx512;
-                        unsafe { energies_in::<$avx512, F, L, V>(this, elements, view) }
-                    }
-                    match self.level {
-                        Level::Avx512 => return unsafe { avx512(self, elements, view) },
-                        Level::Avx2 => return unsafe { avx2(self, elements, view) },
-                        Level::Portable => {}
-                    }
-                }
-                unsafe { energies_in::<$portable, F, L, V>(self, elements, view) }
+                unsafe { energies_of::<$real, F, L>(&self.law, elements, view) }
             }
         }
     };
 }
-dispatched!(f64, Array<f64, 4, false>, Array<f64, 4, true>, F64x8);
-dispatched!(f32, Array<f32, 8, false>, Array<f32, 8, true>, F32x16);
+dispatched!(f64, Array<f64, 2>, F64x4, F64x8);
+dispatched!(f32, Array<f32, 4>, F32x8, F32x16);
 
 /// Lanes of a level, for elements and nodes alike.
 pub fn width(level: Level, single: bool) -> usize {
-    let doubles = if level == Level::Avx512 { 8 } else { 4 };
+    let doubles = match level {
+        Level::Avx512 => 8,
+        Level::Avx2 => 4,
+        Level::Portable => 2,
+    };
     if single { 2 * doubles } else { doubles }
 }
 

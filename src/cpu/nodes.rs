@@ -426,7 +426,7 @@ pub trait NodePass: Real {
 }
 
 macro_rules! node_pass {
-    ($real:ty, $portable:ty, $avx2:ty, $avx512:ident) => {
+    ($real:ty, $portable:ty, $avx2:ident, $avx512:ident) => {
         impl NodePass for $real {
             unsafe fn node_pass(
                 nodes: &Nodes<Self>,
@@ -464,6 +464,7 @@ macro_rules! node_pass {
                         books: &Books,
                         probe: bool,
                     ) {
+                        use crate::physics::lanes::$avx2;
                         unsafe { either::<$avx2>(nodes, c, chunks, view, books, probe) }
                     }
                     #[target_feature(enable = "avx512f,fma")]
@@ -489,5 +490,5 @@ macro_rules! node_pass {
         }
     };
 }
-node_pass!(f64, Array<f64, 4, false>, Array<f64, 4, true>, F64x8);
-node_pass!(f32, Array<f32, 8, false>, Array<f32, 8, true>, F32x16);
+node_pass!(f64, Array<f64, 2>, F64x4, F64x8);
+node_pass!(f32, Array<f32, 4>, F32x8, F32x16);

@@ -43,8 +43,6 @@ pub trait Real: Scalar + PartialOrd {
     const EPSILON: f64;
     fn to_f64(self) -> f64;
     fn sqrt(self) -> Self;
-    /// self * a + b with one rounding; fast only in functions with the target feature.
-    fn fused(self, a: Self, b: Self) -> Self;
     /// self^(-1/3) within 4 %, and the Newton steps that make it exact (each doubles the digits).
     fn recip_cbrt_guess(self) -> Self;
     const CBRT_STEPS: usize;
@@ -84,10 +82,6 @@ macro_rules! real {
             #[inline(always)]
             fn sqrt(self) -> Self {
                 <$type>::sqrt(self)
-            }
-            #[inline(always)]
-            fn fused(self, a: Self, b: Self) -> Self {
-                <$type>::mul_add(self, a, b)
             }
             #[inline(always)]
             fn recip_cbrt_guess(self) -> Self {

@@ -7,15 +7,15 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 pub(in crate::physics) const GUESS_F64: f64 = 1_430_195_000.0;
 pub(in crate::physics) const GUESS_F32: f32 = 1_419_909_400.0;
 
-/// Lanes as an array, which the compiler turns into vector registers. `FUSED`: multiply-adds are one instruction
-/// (the function they are inlined into has the feature); otherwise they must not be asked for.
+/// Lanes as an array, which the compiler turns into vector registers (SSE2, NEON): no fused multiply-add, which is a
+/// library call where the instructions are not known to be there.
 #[derive(Debug, Clone, Copy)]
 #[repr(transparent)]
-pub struct Array<T, const N: usize, const FUSED: bool>([T; N]);
+pub struct Array<T, const N: usize>([T; N]);
 
 macro_rules! each {
     ($trait:ident, $method:ident, $op:tt) => {
-        impl<T: Real, const N: usize, const F: bool> $trait for Array<T, N, F> {
+        impl<T: Real, const N: usize> $trait for Array<T, N> {
             type Output = Self;
             #[inline(always)]
             fn $method(mut self, other: Self) -> Self {
@@ -32,7 +32,7 @@ each!(Sub, sub, -);
 each!(Mul, mul, *);
 each!(Div, div, /);
 
-impl<T: Real, const N: usize, const F: bool> Neg for Array<T, N, F> {
+impl<T: Real, const N: usize> Neg for Array<T, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(mut self) -> Self {
@@ -43,21 +43,21 @@ impl<T: Real, const N: usize, const F: bool> Neg for Array<T, N, F> {
     }
 }
 
-impl<T: Real, const N: usize, const F: bool> AddAssign for Array<T, N, F> {
+impl<T: Real, const N: usize> AddAssign for Array<T, N> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<T: Real, const N: usize, const F: bool> SubAssign for Array<T, N, F> {
+impl<T: Real, const N: usize> SubAssign for Array<T, N> {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
-impl<T: Real, const N: usize, const FUSED: bool> Scalar for Array<T, N, FUSED> {
+impl<T: Real, const N: usize> Scalar for Array<T, N> {
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Array([T::from_f64(value); N])
@@ -66,7 +66,7 @@ impl<T: Real, const N: usize, const FUSED: bool> Scalar for Array<T, N, FUSED> {
     #[inline(always)]
     fn mul_add(mut self, a: Self, b: Self) -> Self {
         for i in 0..N {
-            self.0[i] = if FUSED { self.0[i].fused(a.0[i], b.0[i]) } else { self.0[i] * a.0[i] + b.0[i] };
+            self.0[i] = self.0[i] * a.0[i] + b.0[i];
         }
         self
     }
@@ -104,7 +104,7 @@ impl<T: Real, const N: usize, const FUSED: bool> Scalar for Array<T, N, FUSED> {
     }
 }
 
-impl<T: Real, const N: usize, const FUSED: bool> Lanes for Array<T, N, FUSED> {
+impl<T: Real, const N: usize> Lanes for Array<T, N> {
     type Real = T;
     const WIDTH: usize = N;
 

@@ -6,12 +6,12 @@
 
 mod array;
 #[cfg(target_arch = "x86_64")]
-mod avx512;
+mod x86;
 
 pub use array::Array;
 pub(super) use array::{GUESS_F32, GUESS_F64};
 #[cfg(target_arch = "x86_64")]
-pub use avx512::{F32x16, F64x8};
+pub use x86::{F32x8, F32x16, F64x4, F64x8};
 
 use super::scalar::{Real, Scalar};
 

@@ -1,4 +1,5 @@
-//! Lanes of 512 bits by hand: left to itself the compiler splits them in two and spills.
+//! Lanes of 256 and 512 bits by hand: as arrays the compiler splits the wide ones in two and spills, and takes ten
+//! times as long over the others.
 
 use super::Lanes;
 use crate::physics::scalar::Scalar;
@@ -7,15 +8,15 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 macro_rules! lanes {
     ($(#[$doc:meta])* $name:ident, $vector:ty, $real:ty, $width:literal, $steps:literal,
-     $set:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $fmadd:ident, $fnmadd:ident, $min:ident, $blend:ident,
-     $cmp:ident, $load:ident, $store:ident, $guess:ident) => {
+     $set:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $fmadd:ident, $fnmadd:ident, $load:ident,
+     $store:ident, $guess:ident, $min:ident, $not_positive:ident, $negative:ident) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy)]
         #[repr(transparent)]
         pub struct $name($vector);
 
-        // SAFETY of every intrinsic here: values of this type exist only in functions compiled for AVX-512, which run
-        // after `Level::detect` has found it.
+        // SAFETY of every intrinsic here: values of this type exist only in functions compiled for these instructions,
+        // which run after `Level::detect` has found them.
         impl Add for $name {
             type Output = Self;
             #[inline(always)]
@@ -97,11 +98,7 @@ macro_rules! lanes {
             }
             #[inline(always)]
             fn min(self, other: Self) -> Self {
-                // The instruction returns its second operand if either is NaN: keep a NaN of the first.
-                unsafe {
-                    let nan = $cmp::<_CMP_UNORD_Q>(self.0, self.0);
-                    $name($blend(nan, $min(self.0, other.0), self.0))
-                }
+                unsafe { $name($min(self.0, other.0)) }
             }
         }
 
@@ -136,11 +133,11 @@ macro_rules! lanes {
             }
             #[inline(always)]
             fn any_not_positive(self) -> bool {
-                unsafe { $cmp::<_CMP_NGT_UQ>(self.0, $set(0.0)) != 0 }
+                unsafe { $not_positive(self.0) }
             }
             #[inline(always)]
             fn any_negative(self) -> bool {
-                unsafe { $cmp::<_CMP_LT_OQ>(self.0, $set(0.0)) != 0 }
+                unsafe { $negative(self.0) }
             }
         }
     };
@@ -167,15 +164,127 @@ unsafe fn guess_f32(x: __m512) -> __m512 {
     }
 }
 
+/// The same in 256 bits: the upper halves of the numbers gathered into 128.
+#[inline(always)]
+unsafe fn guess_f64_256(x: __m256d) -> __m256d {
+    unsafe {
+        let halves = _mm256_setr_epi32(1, 3, 5, 7, 1, 3, 5, 7);
+        let upper = _mm256_castsi256_si128(_mm256_permutevar8x32_epi32(_mm256_castpd_si256(x), halves));
+        let third = _mm256_mul_pd(_mm256_cvtepi32_pd(upper), _mm256_set1_pd(-1.0 / 3.0));
+        let guess = _mm256_cvttpd_epi32(_mm256_add_pd(third, _mm256_set1_pd(super::array::GUESS_F64)));
+        _mm256_castsi256_pd(_mm256_slli_epi64::<32>(_mm256_cvtepi32_epi64(guess)))
+    }
+}
+
+#[inline(always)]
+unsafe fn guess_f32_256(x: __m256) -> __m256 {
+    unsafe {
+        let third = _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_castps_si256(x)), _mm256_set1_ps(-1.0 / 3.0));
+        let guess = _mm256_cvttps_epi32(_mm256_add_ps(third, _mm256_set1_ps(super::array::GUESS_F32)));
+        _mm256_castsi256_ps(guess)
+    }
+}
+
+/// Minimum and tests of a vector type. The minimum instruction returns its second operand if either is NaN: a NaN of
+/// the first is kept.
+macro_rules! wide {
+    ($vector:ty, $cmp:ident, $blend:ident, $least:ident, $zero:ident, $min:ident, $not_positive:ident, $negative:ident) => {
+        #[inline(always)]
+        unsafe fn $min(a: $vector, b: $vector) -> $vector {
+            unsafe { $blend($cmp::<_CMP_UNORD_Q>(a, a), $least(a, b), a) }
+        }
+        #[inline(always)]
+        unsafe fn $not_positive(a: $vector) -> bool {
+            unsafe { $cmp::<_CMP_NGT_UQ>(a, $zero()) != 0 }
+        }
+        #[inline(always)]
+        unsafe fn $negative(a: $vector) -> bool {
+            unsafe { $cmp::<_CMP_LT_OQ>(a, $zero()) != 0 }
+        }
+    };
+}
+wide!(
+    __m512d,
+    _mm512_cmp_pd_mask,
+    _mm512_mask_blend_pd,
+    _mm512_min_pd,
+    _mm512_setzero_pd,
+    min_f64,
+    not_positive_f64,
+    negative_f64
+);
+wide!(
+    __m512,
+    _mm512_cmp_ps_mask,
+    _mm512_mask_blend_ps,
+    _mm512_min_ps,
+    _mm512_setzero_ps,
+    min_f32,
+    not_positive_f32,
+    negative_f32
+);
+
+/// The same where a comparison is a vector, not a mask.
+macro_rules! narrow {
+    ($vector:ty, $cmp:ident, $blend:ident, $least:ident, $zero:ident, $mask:ident, $min:ident, $not_positive:ident, $negative:ident) => {
+        #[inline(always)]
+        unsafe fn $min(a: $vector, b: $vector) -> $vector {
+            unsafe { $blend($least(a, b), a, $cmp::<_CMP_UNORD_Q>(a, a)) }
+        }
+        #[inline(always)]
+        unsafe fn $not_positive(a: $vector) -> bool {
+            unsafe { $mask($cmp::<_CMP_NGT_UQ>(a, $zero())) != 0 }
+        }
+        #[inline(always)]
+        unsafe fn $negative(a: $vector) -> bool {
+            unsafe { $mask($cmp::<_CMP_LT_OQ>(a, $zero())) != 0 }
+        }
+    };
+}
+narrow!(
+    __m256d,
+    _mm256_cmp_pd,
+    _mm256_blendv_pd,
+    _mm256_min_pd,
+    _mm256_setzero_pd,
+    _mm256_movemask_pd,
+    min_f64_256,
+    not_positive_f64_256,
+    negative_f64_256
+);
+narrow!(
+    __m256,
+    _mm256_cmp_ps,
+    _mm256_blendv_ps,
+    _mm256_min_ps,
+    _mm256_setzero_ps,
+    _mm256_movemask_ps,
+    min_f32_256,
+    not_positive_f32_256,
+    negative_f32_256
+);
+
 lanes!(
-    /// Eight f64.
+    /// Eight f64, AVX-512.
     F64x8, __m512d, f64, 8, 4,
     _mm512_set1_pd, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_fmadd_pd, _mm512_fnmadd_pd,
-    _mm512_min_pd, _mm512_mask_blend_pd, _mm512_cmp_pd_mask, _mm512_loadu_pd, _mm512_storeu_pd, guess_f64
+    _mm512_loadu_pd, _mm512_storeu_pd, guess_f64, min_f64, not_positive_f64, negative_f64
 );
 lanes!(
-    /// Sixteen f32.
+    /// Sixteen f32, AVX-512.
     F32x16, __m512, f32, 16, 3,
     _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_fmadd_ps, _mm512_fnmadd_ps,
-    _mm512_min_ps, _mm512_mask_blend_ps, _mm512_cmp_ps_mask, _mm512_loadu_ps, _mm512_storeu_ps, guess_f32
+    _mm512_loadu_ps, _mm512_storeu_ps, guess_f32, min_f32, not_positive_f32, negative_f32
+);
+lanes!(
+    /// Four f64, AVX2 with FMA.
+    F64x4, __m256d, f64, 4, 4,
+    _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_fmadd_pd, _mm256_fnmadd_pd,
+    _mm256_loadu_pd, _mm256_storeu_pd, guess_f64_256, min_f64_256, not_positive_f64_256, negative_f64_256
+);
+lanes!(
+    /// Eight f32, AVX2 with FMA.
+    F32x8, __m256, f32, 8, 3,
+    _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_fmadd_ps, _mm256_fnmadd_ps,
+    _mm256_loadu_ps, _mm256_storeu_ps, guess_f32_256, min_f32_256, not_positive_f32_256, negative_f32_256
 );
