@@ -16,7 +16,7 @@ use crate::model::Model;
 use crate::output::summary::{StageMeans, Versions, WorstBalance};
 use crate::output::{RunWriter, Summary};
 use crate::run::{self, Totals};
-use crate::scene::Scene;
+use crate::scene::{Method, Scene, Stage};
 use crate::{Error, Result};
 
 pub const HELP: &str = "\
@@ -97,6 +97,8 @@ impl Report<'_> {
         let mut warnings = warnings::of(scene, self.model);
         warnings.extend(warnings::of_history(scene, &recorder.history));
         warnings.extend(error.map(|e| format!("the run did not finish: {e}")));
+        let settles = |s: &&Stage| matches!(s.method, Method::QuasiStatic { .. });
+        let settling: Vec<&str> = scene.stages.iter().filter(settles).map(|s| s.name.as_str()).collect();
         // Of a run that took no step there is no smallest one.
         let known = |dt: f64| if dt.is_finite() { dt } else { 0.0 };
         self.summary = Summary {
@@ -122,7 +124,7 @@ impl Report<'_> {
             stored_balance: WorstBalance::of_stored(&recorder.history),
             // + 0.0: no road was pierced is 0, not -0.
             worst_penetration_m: scene.road.map(|_| -totals.ledger.worst_gap + 0.0),
-            stages: StageMeans::of(&recorder.history),
+            stages: StageMeans::of(&recorder.history, &settling),
             versions: Versions::current(),
             warnings,
         };

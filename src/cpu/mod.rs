@@ -16,6 +16,7 @@ pub use engine::CpuEngine;
 
 use crate::engine::Engine;
 use crate::model::Model;
+use crate::physics::lanes::Level;
 use crate::scene::Scene;
 
 /// Floating-point type of the CPU engine.
@@ -28,8 +29,19 @@ pub enum Precision {
 /// A CPU engine at rest in the reference shape. `threads` = 0: all cores. Compiled once, here: callers do not each
 /// instantiate every kernel.
 pub fn engine(model: &Model, scene: &Scene, precision: Precision, threads: usize) -> Box<dyn Engine> {
+    engine_at(model, scene, precision, threads, Level::detect())
+}
+
+/// The same with chosen instructions, which the machine must have.
+pub fn engine_at(
+    model: &Model,
+    scene: &Scene,
+    precision: Precision,
+    threads: usize,
+    level: Level,
+) -> Box<dyn Engine> {
     match precision {
-        Precision::F64 => Box::new(CpuEngine::<f64>::new(model, scene, threads)),
-        Precision::F32 => Box::new(CpuEngine::<f32>::new(model, scene, threads)),
+        Precision::F64 => Box::new(CpuEngine::<f64>::with_level(model, scene, threads, level)),
+        Precision::F32 => Box::new(CpuEngine::<f32>::with_level(model, scene, threads, level)),
     }
 }

@@ -114,13 +114,18 @@ impl Versions {
 }
 
 impl StageMeans {
-    /// The means of every stage of a history.
-    pub fn of(history: &[Sample]) -> Vec<StageMeans> {
-        stages::spans(history).iter().map(|span| StageMeans::of_span(history, span)).collect()
+    /// The means of every stage of a history. Of stages named in `settling` (quasi-static ones, which end at rest) the
+    /// last window is taken instead.
+    pub fn of(history: &[Sample], settling: &[&str]) -> Vec<StageMeans> {
+        let of = |span: &Span| {
+            let settles = settling.contains(&span.stage.as_str());
+            let last = || stages::starts_at(history, span.rows.end - 1)..span.end;
+            StageMeans::over(history, span, if settles { last() } else { span.tail() })
+        };
+        stages::spans(history).iter().map(of).collect()
     }
 
-    fn of_span(history: &[Sample], span: &Span) -> StageMeans {
-        let tail = span.tail();
+    fn over(history: &[Sample], span: &Span, tail: std::ops::Range<f64>) -> StageMeans {
         let mean = |value: fn(&Sample) -> f64| stages::mean(history, &tail, value);
         StageMeans {
             stage: span.stage.clone(),

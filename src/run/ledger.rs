@@ -30,6 +30,7 @@ pub struct Ledger {
 #[derive(Debug, Clone)]
 pub struct WindowEnd {
     pub time: f64,
+    /// Sum of the mean steps over which its forces acted [s].
     pub length: f64,
     pub dt: f64,
     pub stage: String,

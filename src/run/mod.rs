@@ -10,7 +10,7 @@ pub use fields::contact_areas;
 pub use ledger::Ledger;
 pub use motion::Motion;
 
-use crate::engine::{Engine, Window};
+use crate::engine::{Engine, Step, Window};
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::physics::rim;
@@ -96,6 +96,8 @@ struct Run<'a> {
     refresh_interval: u64,
     next_snapshot: f64,
     end: f64,
+    /// Time over which the forces of the window acted: its length, but for the half step after velocities were set.
+    force_time: f64,
     /// Kinetic over strain energy and relative net force at the last window.
     last_ratios: [f64; 2],
 }
@@ -129,6 +131,7 @@ impl<'a> Run<'a> {
             refresh_interval: 0,
             next_snapshot: 0.0,
             end: 0.0,
+            force_time: 0.0,
             last_ratios: [f64::INFINITY; 2],
         };
         run.start_body()?;
@@ -226,29 +229,41 @@ impl<'a> Run<'a> {
 
     /// Steps to `end` and books the window.
     fn window(&mut self, stage: &Stage, end: f64) -> Result<Window> {
-        let start = self.totals.time;
-        if self.totals.steps >= self.refresh_at {
-            self.refresh()?;
+        self.force_time = 0.0;
+        while self.totals.time < end {
+            self.advance_towards(end)?;
         }
-        let length = end - start;
-        let count = (length / (self.scene.safety * self.critical.dt)).ceil().max(1.0) as usize;
-        let dt = length / count as f64;
-        let steps = self.motion.plan(start, dt, self.dt_before, count);
-        self.engine.advance(&steps)?;
-        self.dt_before = dt;
-        self.totals.time = end;
-        self.totals.steps += count as u64;
-        self.totals.dt_min = self.totals.dt_min.min(dt);
-        self.totals.dt_max = self.totals.dt_max.max(dt);
+        let dt = self.dt_before;
         let next = self.motion.plan(end, dt, dt, 1)[0];
         let window = self.engine.sample(&next)?;
         (self.rim, self.rim_rate) = (window.rim, window.rim_rate);
-        let at = WindowEnd { time: end, length, dt, stage: stage.name.clone() };
+        let at = WindowEnd { time: end, length: self.force_time, dt, stage: stage.name.clone() };
         let row = self.totals.ledger.row(self.model, self.scene.road.as_ref(), &at, &window);
         let totals = &self.totals;
         let progress = Progress { stage: &stage.name, time: end, end: self.end, steps: totals.steps, totals };
         self.observer.sample(&row, &progress)?;
         Ok(window)
+    }
+
+    /// Takes equal steps that would end at `end`, at most until the critical step is due to be looked at again.
+    fn advance_towards(&mut self, end: f64) -> Result<()> {
+        if self.totals.steps >= self.refresh_at {
+            self.refresh()?;
+        }
+        let start = self.totals.time;
+        let length = end - start;
+        let count = (length / (self.scene.safety * self.critical.dt)).ceil().max(1.0) as usize;
+        let dt = length / count as f64;
+        let taken = count.min((self.refresh_at - self.totals.steps) as usize);
+        let steps = self.motion.plan(start, dt, self.dt_before, taken);
+        self.engine.advance(&steps)?;
+        self.force_time += steps.iter().map(Step::dtm).sum::<f64>();
+        self.dt_before = dt;
+        self.totals.time = if taken == count { end } else { start + taken as f64 * dt };
+        self.totals.steps += taken as u64;
+        self.totals.dt_min = self.totals.dt_min.min(dt);
+        self.totals.dt_max = self.totals.dt_max.max(dt);
+        Ok(())
     }
 
     /// Finds the critical step again, and decides how long to trust it: twice as long while it stays within 0.2 %,
@@ -326,7 +341,7 @@ impl<'a> Run<'a> {
             self.next_snapshot += interval;
         }
         let state = self.engine.state()?;
-        let length = window.steps as f64 * self.dt_before;
+        let length = self.force_time;
         let road = self.scene.road.as_ref();
         let snapshot = fields::snapshot(self.model, road, time, self.totals.steps, length, state, window);
         self.observer.snapshot(&snapshot, &stage.name)?;

@@ -30,7 +30,7 @@ fn means_are_over_the_last_30_percent_of_each_stage() {
     let rows = [("press", 4.0, 100.0), ("press", 8.0, 10.0), ("press", 10.0, 40.0), ("roll", 11.0, 7.0)];
     let history =
         rows.map(|(stage, time, fz)| Sample { road_fz_N: fz, rim_my_Nm: -2.0 * fz, ..sample(stage, time) });
-    let means = StageMeans::of(&history);
+    let means = StageMeans::of(&history, &[]);
     assert_eq!(means.iter().map(|m| m.stage.as_str()).collect::<Vec<_>>(), ["press", "roll"]);
     assert_eq!((means[0].start_s, means[0].end_s, means[0].means_from_s), (0.0, 10.0, 7.0));
     assert_eq!((means[1].start_s, means[1].end_s), (10.0, 11.0));

@@ -1,0 +1,119 @@
+//! The lanes compute what plain numbers do.
+//!
+//! One source of physics is compiled for several widths and instruction sets (src/physics/lanes). Requirement: every
+//! level this machine has gives the forces and the motion of the portable one up to rounding, with the elements in any
+//! order, and its reciprocal cube root is exact to the last digits.
+
+mod common;
+
+use common::block;
+use hexroll::cpu::{Precision, engine_at};
+use hexroll::model::Model;
+use hexroll::model::mesh::Mesh;
+use hexroll::physics::lanes::{Array, Lanes, Level};
+use hexroll::physics::scalar::{Real, Scalar};
+use hexroll::scene::Scene;
+
+fn levels() -> Vec<Level> {
+    [Level::Portable, Level::Avx2, Level::Avx512].into_iter().filter(|l| *l <= Level::detect()).collect()
+}
+
+/// Positions stretched and sheared smoothly by about a tenth, velocities alike.
+fn deformed(mesh: &Mesh) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
+    let size = mesh.axle.iter().fold(0.0f64, |m, a| m.max(a.abs()));
+    let wave = |x: &[f64; 3], k: f64| [0, 1, 2].map(|d| (k + 3.0 * x[(d + 1) % 3] / size).sin());
+    let x = mesh.nodes.iter().map(|x| [0, 1, 2].map(|d| x[d] + 0.05 * size * wave(x, 0.3)[d])).collect();
+    let v = mesh.nodes.iter().map(|x| wave(x, 1.1)).collect();
+    (x, v)
+}
+
+fn relative(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    let square = |v: f64| v * v;
+    let difference: f64 = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| square(a - b)).sum();
+    (difference / a.iter().flatten().map(|a| square(*a)).sum::<f64>()).sqrt()
+}
+
+fn cases() -> Vec<Scene> {
+    use hexroll::scene::{Element, Law};
+    let mut cases = Vec::new();
+    for element in [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }] {
+        for law in [
+            Law::NeoHookean { g0: 65.1e6, g1: 2.64e6 },
+            Law::MooneyRivlin { g0: 65.1e6, g1: 2.0e6, g2: 0.64e6 },
+            Law::MooneyRivlinEq4 { g0: 63.0e6, g1: 2.0e6, g2: 0.64e6 },
+        ] {
+            for viscosity in [None, Some(20.0)] {
+                // 7 elements a row: no lane count divides it, so full, crossing and partial batches all occur.
+                let mut case = block([0.07, 0.03, 0.02], [7, 3, 2]);
+                (case.body.element, case.body.law, case.body.viscosity) = (element, law, viscosity);
+                cases.push(case);
+            }
+        }
+    }
+    cases
+}
+
+#[test]
+fn every_level_computes_the_portable_forces() {
+    for case in cases() {
+        let model = Model::new(&case).unwrap();
+        let (x, v) = deformed(&model.mesh);
+        for (precision, tolerance) in [(Precision::F64, 1e-13), (Precision::F32, 3e-5)] {
+            // Rounding of the stress relative to its deviator: 1e-16 (6e-8) times kappa/G and a few digits of sums.
+            let of = |level| engine_at(&model, &case, precision, 1, level).force(&x, &v).unwrap();
+            let portable = of(Level::Portable);
+            for level in levels() {
+                let error = relative(&portable, &of(level));
+                assert!(error < tolerance, "{level:?} {precision:?} {:?}: {error:e}", case.body.element);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_order_of_elements_and_nodes_does_not_matter() {
+    let case = block([0.07, 0.03, 0.02], [7, 3, 2]);
+    let model = Model::new(&case).unwrap();
+    let mut mesh = model.mesh.clone();
+    // A fixed shuffle: node n becomes number[n], elements are taken with a stride prime to their count.
+    let count = mesh.nodes.len();
+    let number: Vec<usize> = (0..count).map(|n| (n * 37 + 5) % count).collect();
+    for (n, &to) in number.iter().enumerate() {
+        mesh.nodes[to] = model.mesh.nodes[n];
+    }
+    let elements = mesh.hexes.len();
+    let renumber = |hex: [u32; 8]| hex.map(|n| number[n as usize] as u32);
+    mesh.hexes = (0..elements).map(|e| renumber(model.mesh.hexes[(e * 11 + 3) % elements])).collect();
+    mesh.facets = mesh.facets.iter().map(|f| f.map(|n| number[n as usize] as u32)).collect();
+    mesh.surface = mesh.surface.iter().map(|n| number[*n as usize] as u32).collect();
+    mesh.surface.sort_unstable();
+    let shuffled = Model::from_mesh(mesh, &case.body).unwrap();
+    let (x, v) = deformed(&model.mesh);
+    let mut mixed = (x.clone(), v.clone());
+    for (n, &to) in number.iter().enumerate() {
+        (mixed.0[to], mixed.1[to]) = (x[n], v[n]);
+    }
+    for level in levels() {
+        let straight = engine_at(&model, &case, Precision::F64, 1, level).force(&x, &v).unwrap();
+        let shuffled =
+            engine_at(&shuffled, &case, Precision::F64, 1, level).force(&mixed.0, &mixed.1).unwrap();
+        let back: Vec<[f64; 3]> = number.iter().map(|&to| shuffled[to]).collect();
+        // Sums in another order.
+        assert!(relative(&straight, &back) < 1e-13, "{level:?}");
+    }
+}
+
+#[test]
+fn the_reciprocal_cube_root_is_exact_to_the_last_digits() {
+    fn check<N: Lanes>(digits: f64) {
+        for i in 0..4000 {
+            let x = 10.0f64.powf(-3.0 + 6.0 * f64::from(i) / 4000.0);
+            let x = <N::Real as Scalar>::from_f64(x).to_f64();
+            let root = N::splat(<N::Real as Scalar>::from_f64(x)).recip_cbrt().lane(N::WIDTH - 1).to_f64();
+            assert!((root * x.cbrt() - 1.0).abs() < digits, "{x}: {root}");
+        }
+    }
+    // Four (three) Newton steps from 4 %: below the rounding of the last one, about two units in the last place.
+    check::<Array<f64, 2>>(8e-16);
+    check::<Array<f32, 4>>(5e-7);
+}
