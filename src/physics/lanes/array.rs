@@ -18,6 +18,7 @@ macro_rules! each {
         impl<T: Real, const N: usize> $trait for Array<T, N> {
             type Output = Self;
             #[inline(always)]
+            #[allow(clippy::assign_op_pattern)] // Scalar has no assigning product or quotient
             fn $method(mut self, other: Self) -> Self {
                 for i in 0..N {
                     self.0[i] = self.0[i] $op other.0[i];
