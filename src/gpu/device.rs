@@ -13,7 +13,7 @@ pub struct AdapterReport {
     /// Largest storage binding and buffer [bytes].
     pub storage_binding: u64,
     pub buffer: u64,
-    /// Storage buffers a compute stage may bind (this program binds up to 12).
+    /// Storage buffers a compute stage may bind (this program binds up to 13).
     pub storage_buffers: u32,
     /// Work groups a dispatch may have in one dimension.
     pub workgroups: u32,
@@ -26,7 +26,7 @@ pub struct AdapterReport {
 }
 
 /// Storage buffers bound by the largest kernel.
-pub const STORAGE_BUFFERS: u32 = 12;
+pub const STORAGE_BUFFERS: u32 = 13;
 
 fn instance() -> wgpu::Instance {
     wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env())

@@ -11,5 +11,5 @@ mod readback;
 mod rim;
 mod stage;
 
-pub use device::{AdapterReport, Gpu, adapters};
-pub use engine::GpuEngine;
+pub use device::{AdapterReport, Gpu, STORAGE_BUFFERS, adapters};
+pub use engine::{Counts, GpuEngine};
