@@ -108,10 +108,8 @@ impl Reached {
     fn block(&mut self, module: &Module, block: &Block) {
         for statement in block {
             match statement {
-                Statement::Call { function, .. } => {
-                    if self.functions.insert(*function) {
-                        self.function(module, &module.functions[*function]);
-                    }
+                Statement::Call { function, .. } if self.functions.insert(*function) => {
+                    self.function(module, &module.functions[*function]);
                 }
                 Statement::Block(inner) => self.block(module, inner),
                 Statement::If { accept, reject, .. } => {
@@ -154,17 +152,8 @@ fn declared(part: &str) -> BTreeSet<String> {
         Some(rest[..end].to_string())
     };
     let name = |line: &str| {
-        if line.starts_with("fn ") {
-            after(line, "fn ")
-        } else if line.starts_with("override ") {
-            after(line, "override ")
-        } else if line.starts_with("@group") {
-            after(line, "> ")
-        } else if line.starts_with("var<workgroup>") {
-            after(line, "> ")
-        } else {
-            None
-        }
+        let starts = [("fn ", "fn "), ("override ", "override "), ("@group", "> "), ("var<workgroup>", "> ")];
+        starts.iter().find(|(start, _)| line.starts_with(start)).and_then(|(_, before)| after(line, before))
     };
     source.lines().filter_map(name).collect()
 }

@@ -111,7 +111,7 @@ impl Gpu {
             candidates.iter().filter(wanted).find(|a| report(a).unusable.is_none()).ok_or_else(|| {
                 let seen: Vec<String> = candidates
                     .iter()
-                    .map(|a| report(a))
+                    .map(report)
                     .map(|r| {
                         format!("{} ({})", r.name, r.unusable.as_deref().unwrap_or("not the one asked for"))
                     })

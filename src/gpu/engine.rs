@@ -92,7 +92,7 @@ impl GpuEngine {
     /// # Errors
     /// The scene does not fit the adapter's limits, or (`plus`) the adapter's arithmetic spoils compensated sums.
     pub fn new(gpu: &Gpu, model: &Model, scene: &Scene, plus: bool) -> Result<Self> {
-        buffers::check_limits(gpu, model)?;
+        buffers::check_limits(gpu, model, scene.road.is_some())?;
         let choice = Choice {
             element: model.element,
             law: model.law,
@@ -288,9 +288,7 @@ impl GpuEngine {
         rebase.dispatch(&mut pass, self.counts.groups(self.counts.nodes), 0);
         drop(pass);
         self.gpu.queue.submit([encoder.finish()]);
-        for d in 0..3 {
-            self.frame[d] += shift[d];
-        }
+        self.frame.iter_mut().zip(shift).for_each(|(frame, shift)| *frame += shift);
         self.gpu.wait()
     }
 

@@ -1,7 +1,7 @@
 //! Scenes, engines and plans that the trials share, and how two runs are compared.
 
 use hexroll::cpu::CpuEngine;
-use hexroll::engine::{Engine, StageSetup, State, Step, Window, Works};
+use hexroll::engine::{Engine, StageSetup, State, Step, SurfaceSum, Window, Works};
 use hexroll::gpu::{Gpu, GpuEngine};
 use hexroll::model::Model;
 use hexroll::physics::rim::Coordinates;
@@ -150,68 +150,87 @@ pub fn displacement(model: &Model, state: &State) -> Vec<[f64; 3]> {
     state.x.iter().zip(&model.mesh.nodes).map(from).collect()
 }
 
-/// Largest |a - b| relative to the largest |b|.
-fn worst<const N: usize>(pairs: impl Iterator<Item = ([f64; N], [f64; N])>) -> f64 {
-    let (mut error, mut scale) = (0.0f64, f64::MIN_POSITIVE);
-    for (a, b) in pairs {
-        for k in 0..N {
-            // A NaN must not vanish in a maximum.
-            assert!(a[k].is_finite() && b[k].is_finite(), "{a:?} {b:?}");
-            error = error.max((a[k] - b[k]).abs());
-            scale = scale.max(b[k].abs());
-        }
-    }
-    error / scale
-}
-
 fn works(w: &Works) -> [f64; 7] {
     [w.internal, w.viscous, w.damping, w.body_force, w.rim, w.normal, w.friction]
 }
 
-/// Errors of one window against another, by field; each relative to the largest of its kind.
-pub fn window_errors(a: &Window, b: &Window) -> Vec<(&'static str, f64)> {
-    assert_eq!((a.steps, a.surface.len()), (b.steps, b.surface.len()));
-    let one = |x: f64, y: f64| worst([([x], [y])].into_iter());
-    let surface = |of: fn(&hexroll::engine::SurfaceSum) -> [f64; 3]| {
-        worst(a.surface.iter().zip(&b.surface).map(|(a, b)| (of(a), of(b))))
-    };
-    let counts = a.surface.iter().zip(&b.surface);
-    let different = counts.filter(|(a, b)| {
-        (a.touching, a.sticking, a.touches, a.sticks) != (b.touching, b.sticking, b.touches, b.sticks)
-    });
-    let forces = |w: &Window| [w.probe.net_force, w.probe.internal_force];
-    vec![
-        ("works", worst([(works(&a.works), works(&b.works))].into_iter())),
-        ("half works", worst([(works(&a.probe.half_works), works(&b.probe.half_works))].into_iter())),
-        ("rim impulse", worst([(a.rim_impulse, b.rim_impulse)].into_iter())),
-        ("rim moment", worst([(a.rim_moment_impulse, b.rim_moment_impulse)].into_iter())),
-        ("surface x", surface(|s| s.x)),
-        ("surface v", surface(|s| s.v)),
-        ("contact impulse", surface(|s| s.impulse)),
-        ("contact states", different.count() as f64),
-        ("rim", worst([(a.rim, b.rim)].into_iter())),
-        ("rim rate", worst([(a.rim_rate, b.rim_rate)].into_iter())),
-        ("kinetic", one(a.kinetic, b.kinetic)),
-        ("mixed kinetic", one(a.probe.mixed_kinetic, b.probe.mixed_kinetic)),
-        ("net, internal force", worst([(forces(a), forces(b))].into_iter())),
-        ("strain", one(a.strain + a.hourglass, b.strain + b.hourglass)),
-        ("hourglass", one(a.hourglass, b.hourglass)),
-        ("min J", one(a.min_jacobian, b.min_jacobian)),
-    ]
+/// A field of a window: its values, and what size of error counts as whole.
+struct Field {
+    name: &'static str,
+    values: Vec<f64>,
+    scale: f64,
 }
 
-/// Largest error of every field over all windows.
-pub fn worst_errors(a: &Outcome, b: &Outcome) -> Vec<(&'static str, f64)> {
-    let mut all = Vec::new();
-    for (a, b) in a.windows.iter().zip(&b.windows) {
-        for (k, (name, error)) in window_errors(a, b).into_iter().enumerate() {
-            match all.get_mut(k) {
-                None => all.push((name, error)),
-                Some((_, most)) => *most = f64::max(*most, error),
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m, v| m.max(v.abs()))
+}
+
+/// Fields of a window of `length` seconds on a body of `size` metres. Energies and works are measured by the largest
+/// of them, rim impulses (which may cancel to nothing) by the internal force, all else by its own largest.
+fn fields(w: &Window, length: f64, size: f64) -> Vec<Field> {
+    let all = works(&w.works);
+    let energies = [w.kinetic, w.probe.mixed_kinetic, w.strain, w.hourglass];
+    let energy = largest(&all).max(largest(&energies));
+    let impulse = largest(&w.rim_impulse).max(length * w.probe.internal_force);
+    let surface = |of: fn(&SurfaceSum) -> Vec<f64>| w.surface.iter().flat_map(of).collect::<Vec<f64>>();
+    let mut fields = Vec::new();
+    let mut add = |name, values: Vec<f64>, scale: f64| fields.push(Field { name, values, scale });
+    add("works", all.to_vec(), energy);
+    add("half works", works(&w.probe.half_works).to_vec(), energy);
+    add("energies", energies.to_vec(), energy);
+    add("rim impulse", w.rim_impulse.to_vec(), impulse);
+    add("rim moment", w.rim_moment_impulse.to_vec(), impulse * size);
+    let mut own = |name, values: Vec<f64>| {
+        let scale = largest(&values);
+        add(name, values, scale);
+    };
+    own("contact impulse", surface(|s| s.impulse.to_vec()));
+    own("surface x", surface(|s| s.x.to_vec()));
+    own("surface v", surface(|s| s.v.to_vec()));
+    own("axle", w.rim[..3].to_vec());
+    own("angles", w.rim[3..].to_vec());
+    own("axle's velocity", w.rim_rate[..3].to_vec());
+    own("angular rates", w.rim_rate[3..].to_vec());
+    own("residual forces", vec![w.probe.net_force, w.probe.internal_force]);
+    own("min J", vec![w.min_jacobian]);
+    fields
+}
+
+/// Steps in contact by node: how many differ, of how many.
+fn contact_steps(a: &Window, b: &Window) -> [u32; 2] {
+    let pairs = a.surface.iter().zip(&b.surface);
+    let differ = pairs.map(|(a, b)| a.touching.abs_diff(b.touching) + a.sticking.abs_diff(b.sticking));
+    [differ.sum(), b.surface.iter().map(|s| s.touching + s.sticking).sum()]
+}
+
+/// Largest error of every field over all windows, relative to the field's largest scale; and the share of the
+/// contact's node-steps that differ.
+pub fn errors(plan: &Plan, size: f64, a: &Outcome, b: &Outcome) -> Vec<(&'static str, f64)> {
+    let mut all: Vec<(&'static str, f64, f64)> = Vec::new();
+    let (mut differ, mut contacts) = (0, 0);
+    for (steps, (a, b)) in plan.windows.iter().zip(a.windows.iter().zip(&b.windows)) {
+        assert_eq!((a.steps, a.surface.len()), (b.steps, b.surface.len()));
+        let length = steps.iter().map(Step::dtm).sum::<f64>();
+        for (k, (a, b)) in fields(a, length, size).into_iter().zip(fields(b, length, size)).enumerate() {
+            // A NaN must not vanish in a maximum.
+            assert!(a.values.iter().chain(&b.values).all(|v| v.is_finite()), "{}: not finite", a.name);
+            let error = largest(&a.values.iter().zip(&b.values).map(|(a, b)| a - b).collect::<Vec<f64>>());
+            if all.len() <= k {
+                all.push((a.name, 0.0, f64::MIN_POSITIVE));
             }
+            (all[k].1, all[k].2) = (all[k].1.max(error), all[k].2.max(b.scale));
         }
+        let [d, c] = contact_steps(a, b);
+        (differ, contacts) = (differ + d, contacts + c);
     }
-    all
+    let share = ("contact steps", f64::from(differ) / f64::from(contacts.max(1)));
+    all.into_iter().map(|(name, error, scale)| (name, error / scale)).chain([share]).collect()
+}
+
+/// The same for the final state: displacements and velocities, relative in the L2 norm.
+pub fn state_errors(model: &Model, a: &Outcome, b: &Outcome) -> Vec<(&'static str, f64)> {
+    let u = relative(&displacement(model, &a.state), &displacement(model, &b.state));
+    vec![("displacement", u), ("velocity", relative(&a.state.v, &b.state.v))]
 }
 
 /// Sum of everything booked [J]: all works, and what the two balances leave, with the largest term.
@@ -224,8 +243,8 @@ pub fn balances(given: f64, windows: &[Window]) -> [f64; 3] {
         - given
         - total.without_internal()
         - last.probe.half_works.without_internal();
-    let largest = works(&total).iter().fold(given.max(last.kinetic).max(last.strain), |m, w| m.max(w.abs()));
-    [balance, stored, largest]
+    let most = works(&total).iter().fold(given.max(last.kinetic).max(last.strain), |m, w| m.max(w.abs()));
+    [balance, stored, most]
 }
 
 /// Prints what was measured, if asked to.
@@ -235,17 +254,26 @@ pub fn note(text: impl FnOnce() -> String) {
     }
 }
 
-/// Every field within its bound; those not named within `otherwise`.
-pub fn within(who: &str, errors: &[(&'static str, f64)], bounds: &[(&str, f64)], otherwise: f64) {
-    note(|| {
-        let list: Vec<String> = errors.iter().map(|(name, e)| format!("{name} {e:.1e}")).collect();
-        format!("{who}: {}", list.join(", "))
-    });
+/// Fields beyond their bounds; those not named in `bounds` have the bound `otherwise`.
+pub fn beyond(
+    errors: &[(&'static str, f64)],
+    bounds: &[(&str, f64)],
+    otherwise: f64,
+) -> Vec<(&'static str, f64)> {
     for (name, _) in bounds {
         assert!(errors.iter().any(|(n, _)| n == name), "no field is called {name}");
     }
-    for (name, error) in errors {
-        let bound = bounds.iter().find(|(n, _)| n == name).map_or(otherwise, |b| b.1);
-        assert!(*error <= bound, "{who}: {name} is off by {error:.2e}, more than {bound:.0e}");
-    }
+    let bound = |name: &str| bounds.iter().find(|(n, _)| *n == name).map_or(otherwise, |b| b.1);
+    errors.iter().filter(|(name, error)| *error > bound(name)).copied().collect()
+}
+
+/// Every field within its bound.
+pub fn within(who: &str, errors: &[(&'static str, f64)], bounds: &[(&str, f64)], otherwise: f64) {
+    note(|| format!("{who}: {}", list(errors)));
+    let beyond = beyond(errors, bounds, otherwise);
+    assert!(beyond.is_empty(), "{who} is off by {}", list(&beyond));
+}
+
+pub fn list(errors: &[(&'static str, f64)]) -> String {
+    errors.iter().map(|(name, e)| format!("{name} {e:.1e}")).collect::<Vec<_>>().join(", ")
 }

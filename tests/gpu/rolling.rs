@@ -46,9 +46,9 @@ fn means(gpu: &Gpu, who: Who, stem: &str) -> [f64; 3] {
     means
 }
 
-fn compare(gpu: &Gpu, stem: &str, tolerance: f64) {
+fn compare(gpu: &Gpu, stem: &str, engines: &[Who], tolerance: f64) {
     let exact = means(gpu, Who::Cpu64, stem);
-    for who in [Who::Gpu] {
+    for &who in engines {
         let got = means(gpu, who, stem);
         for k in 0..3 {
             let error = (got[k] / exact[k] - 1.0).abs();
@@ -58,9 +58,9 @@ fn compare(gpu: &Gpu, stem: &str, tolerance: f64) {
 }
 
 pub fn viscous(gpu: &Gpu) {
-    compare(gpu, "lat100_straight_viscous", 0.003);
+    compare(gpu, "lat100_straight_viscous", &[Who::Gpu, Who::Plus], 0.003);
 }
 
 pub fn elastic(gpu: &Gpu) {
-    compare(gpu, "lat100_straight", 0.01);
+    compare(gpu, "lat100_straight", &[Who::Gpu], 0.01);
 }
