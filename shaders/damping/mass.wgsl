@@ -8,11 +8,6 @@ fn predict(mass: f32, f_int: vec3f, v: vec3f) -> vec3f {
     return (v * (1.0 - h) + step.dtm * (gravity() - f_int / mass)) / (1.0 + h);
 }
 
-// What a force of this step meets.
-fn inertia(mass: f32) -> f32 {
-    return mass * (1.0 + 0.5 * alpha * step.dtm);
-}
-
 fn damping_force(mass: f32, before: vec3f, after: vec3f) -> vec3f {
     return -0.5 * alpha * mass * (before + after);
 }

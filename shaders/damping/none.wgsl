@@ -2,8 +2,3 @@
 fn predict(mass: f32, f_int: vec3f, v: vec3f) -> vec3f {
     return v + step.dtm * (gravity() - f_int / mass);
 }
-
-// What a force of this step meets.
-fn inertia(mass: f32) -> f32 {
-    return mass;
-}

@@ -2,6 +2,7 @@
 
 @group(0) @binding(5) var<uniform> step: Step;
 @group(0) @binding(9) var<storage, read_write> probes: array<ProbeRecord>;
+@group(0) @binding(11) var<storage, read> velocities_now: array<vec4f>;
 
 @compute @workgroup_size(64)
 fn main(

@@ -4,9 +4,6 @@ override normal_x: f32;
 override normal_y: f32;
 override normal_z: f32;
 override road_offset: f32;
-override road_velocity_x: f32;
-override road_velocity_y: f32;
-override road_velocity_z: f32;
 
 fn road_normal(x: vec3f) -> vec3f {
     return vec3f(normal_x, normal_y, normal_z);

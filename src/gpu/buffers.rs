@@ -66,28 +66,31 @@ fn usage() -> wgpu::BufferUsages {
     wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC
 }
 
-/// Bytes of the largest binding, and of all together [per element of a structured mesh, about].
-pub fn largest_binding(model: &Model) -> (&'static str, u64) {
-    let slots = ("corner forces", 8 * 16 * model.element_count() as u64);
-    let probes = ("node records", size_of::<layout::ProbeRecord>() as u64 * model.node_count() as u64);
-    if slots.1 >= probes.1 { slots } else { probes }
+/// What may not fit: name, bytes, and the limit it meets.
+fn needs(gpu: &Gpu, model: &Model, road: bool) -> [(&'static str, u64, u64); 3] {
+    let binding = gpu.report.storage_binding.min(gpu.report.buffer);
+    let (elements, nodes) = (model.element_count() as u64, model.node_count() as u64);
+    let surface = if road { model.mesh.surface.len() as u64 } else { 0 };
+    let vector = size_of::<[f32; 4]>() as u64;
+    let record = size_of::<layout::SurfaceRecord>() as u64;
+    [
+        ("corner forces [bytes]", 8 * vector * elements, binding),
+        ("node records [bytes]", size_of::<layout::ProbeRecord>() as u64 * nodes, binding),
+        // Sums, positions and velocities of the surface come back through one buffer; the rest is small.
+        ("a sample's surface [bytes]", (record + 2 * vector) * surface + 65_536, gpu.report.buffer),
+    ]
 }
 
 /// Refuses a scene that the adapter cannot hold, before anything starts.
-pub fn check_limits(gpu: &Gpu, model: &Model) -> Result<()> {
-    let limit = gpu.report.storage_binding.min(gpu.report.buffer);
-    let (what, need) = largest_binding(model);
-    if need <= limit {
-        return Ok(());
+pub fn check_limits(gpu: &Gpu, model: &Model, road: bool) -> Result<()> {
+    for (what, need, limit) in needs(gpu, model, road) {
+        if need > limit {
+            let fits = (limit as f64 / need as f64 * model.element_count() as f64) as u64;
+            let adapter = gpu.report.name.clone();
+            return Err(Error::TooLarge { what: what.into(), need, limit, adapter, fits });
+        }
     }
-    let fits = (limit as f64 / need as f64 * model.element_count() as f64) as u64;
-    Err(Error::TooLarge {
-        what: format!("{what} [bytes]"),
-        need,
-        limit,
-        adapter: gpu.report.name.clone(),
-        fits,
-    })
+    Ok(())
 }
 
 /// A position or direction, padded.

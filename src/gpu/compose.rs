@@ -10,8 +10,8 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 macro_rules! shaders {
     ($($name:literal),* $(,)?) => {
-        /// Every part, by path without its ending.
-        const PARTS: &[(&str, &str)] = &[$(($name, include_str!(concat!("../../shaders/", $name, ".wgsl")))),*];
+        /// Every part: path below `shaders/` without its ending, and source.
+        pub const PARTS: &[(&str, &str)] = &[$(($name, include_str!(concat!("../../shaders/", $name, ".wgsl")))),*];
     };
 }
 shaders!(
@@ -25,6 +25,8 @@ shaders!(
     "contact/project",
     "damping/book",
     "damping/book_none",
+    "damping/inertia",
+    "damping/inertia_none",
     "damping/mass",
     "damping/none",
     "element/full",
@@ -43,6 +45,7 @@ shaders!(
     "kernels/rim",
     "kernels/surface_state",
     "lib/elements",
+    "lib/gather",
     "lib/gravity",
     "lib/gravity_none",
     "lib/hex8",
@@ -129,9 +132,11 @@ impl Choice {
                 [vec!["kernels/node_probe", self.now()], self.node_parts(), vec![self.damping_book()]]
                     .concat()
             }
-            Kernel::Rim => vec!["kernels/rim", "lib/nodes", self.now(), self.gravity_part()],
+            Kernel::Rim => {
+                vec!["kernels/rim", "lib/gather", "lib/nodes", self.now(), self.gravity_part()]
+            }
             Kernel::SurfaceState => vec!["kernels/surface_state", "lib/index", self.now()],
-            Kernel::Gather => vec!["kernels/gather", "lib/index", "lib/nodes"],
+            Kernel::Gather => vec!["kernels/gather", "lib/index", "lib/gather"],
             Kernel::Reduce => vec!["kernels/reduce"],
             Kernel::Rebase if self.plus => vec!["kernels/rebase_plus", "lib/index", "lib/two_sum"],
             Kernel::Rebase => vec!["kernels/rebase", "lib/index"],
@@ -140,10 +145,14 @@ impl Choice {
     }
 
     fn element_parts(&self) -> Vec<&'static str> {
-        let (material, invariants) = match self.law {
-            Law::NeoHookean { .. } => ("material/neo_hookean", "lib/invariants_i1"),
-            Law::MooneyRivlin { .. } => ("material/mooney_rivlin", "lib/invariants_i2"),
-            Law::MooneyRivlinEq4 { .. } => ("material/mooney_rivlin_eq4", "lib/invariants_i2"),
+        let law = match self.law {
+            Law::NeoHookean { .. } => {
+                vec!["material/neo_hookean", "lib/invariants_i1", "lib/recip_cbrt"]
+            }
+            Law::MooneyRivlin { .. } => {
+                vec!["material/mooney_rivlin", "lib/invariants_i2", "lib/recip_cbrt"]
+            }
+            Law::MooneyRivlinEq4 { .. } => vec!["material/mooney_rivlin_eq4", "lib/invariants_i2"],
         };
         let position = if self.plus { "position/f32_plus" } else { "position/f32" };
         let element = match self.element {
@@ -151,9 +160,7 @@ impl Choice {
             Element::Full => vec!["element/full", "lib/points"],
             Element::UniformGradient { .. } => vec!["element/uniform_gradient"],
         };
-        let common =
-            ["lib/elements", "lib/hex8", "lib/index", "lib/recip_cbrt", position, material, invariants];
-        [element, common.to_vec()].concat()
+        [element, vec!["lib/elements", "lib/hex8", "lib/index", position], law].concat()
     }
 
     fn force_parts(&self) -> Vec<&'static str> {
@@ -169,13 +176,16 @@ impl Choice {
     }
 
     fn node_parts(&self) -> Vec<&'static str> {
-        let mut parts = vec!["lib/nodes", "lib/index", "lib/move_node", self.gravity_part()];
+        let mut parts = vec!["lib/gather", "lib/nodes", "lib/index", "lib/move_node", self.gravity_part()];
         parts.push(if self.damping { "damping/mass" } else { "damping/none" });
         parts.extend(match self.rim {
             RimKind::None => vec!["rim/none"],
             RimKind::Prescribed => vec!["rim/carried", "rim/prescribed"],
             RimKind::Free => vec!["rim/carried", "rim/free"],
         });
+        if self.road {
+            parts.push(if self.damping { "damping/inertia" } else { "damping/inertia_none" });
+        }
         parts.extend(match (self.road, self.friction) {
             (false, _) => vec!["contact/none"],
             (true, false) => vec!["contact/project", "contact/frictionless", "road/plane"],

@@ -1,6 +1,8 @@
 //! Adapters: which there are, which one to take, and a device with what it offers.
 
+use super::program::Programs;
 use crate::error::{Error, Result};
+use std::sync::{Arc, Mutex};
 
 /// What wgpu sees, with the limits that matter here.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
@@ -13,7 +15,7 @@ pub struct AdapterReport {
     /// Largest storage binding and buffer [bytes].
     pub storage_binding: u64,
     pub buffer: u64,
-    /// Storage buffers a compute stage may bind (this program binds up to 12).
+    /// Storage buffers a compute stage may bind (this program binds up to 13).
     pub storage_buffers: u32,
     /// Work groups a dispatch may have in one dimension.
     pub workgroups: u32,
@@ -26,7 +28,7 @@ pub struct AdapterReport {
 }
 
 /// Storage buffers bound by the largest kernel.
-pub const STORAGE_BUFFERS: u32 = 12;
+pub const STORAGE_BUFFERS: u32 = 13;
 
 fn instance() -> wgpu::Instance {
     wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env())
@@ -84,12 +86,17 @@ pub fn adapters() -> Vec<AdapterReport> {
     all.iter().map(report).collect()
 }
 
-/// A device ready for compute, with the adapter's own limits.
+/// A device ready for compute, with the adapter's own limits. Clones share the device and what is compiled for it.
 #[derive(Debug, Clone)]
 pub struct Gpu {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
+    /// What the adapter offers: scenes are checked against it, and dispatches folded to its work groups.
     pub report: AdapterReport,
+    /// First error that wgpu reported since the last look.
+    errors: Arc<Mutex<Option<String>>>,
+    /// Programs compiled so far.
+    pub(super) programs: Programs,
 }
 
 impl Gpu {
@@ -121,7 +128,25 @@ impl Gpu {
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
             .map_err(|e| Error::Device { adapter: report.name.clone(), detail: e.to_string() })?;
-        Ok(Gpu { device, queue, report })
+        Ok(Gpu::from_parts(device, queue, report))
+    }
+
+    /// A device opened elsewhere. What wgpu would panic about is kept for [`Gpu::check`] from now on.
+    pub fn from_parts(device: wgpu::Device, queue: wgpu::Queue, report: AdapterReport) -> Gpu {
+        let errors = Arc::new(Mutex::new(None));
+        let sink = errors.clone();
+        device.on_uncaptured_error(Arc::new(move |e: wgpu::Error| {
+            sink.lock().expect("no one panics holding it").get_or_insert(e.to_string());
+        }));
+        Gpu { device, queue, report, errors, programs: Programs::default() }
+    }
+
+    /// The first error that wgpu reported since the last look.
+    pub fn check(&self) -> Result<()> {
+        match self.errors.lock().expect("no one panics holding it").take() {
+            Some(detail) => Err(self.error(detail)),
+            None => Ok(()),
+        }
     }
 
     /// An error of this adapter.
@@ -132,6 +157,7 @@ impl Gpu {
     /// Waits until everything submitted is done.
     pub fn wait(&self) -> Result<()> {
         let done = self.device.poll(wgpu::PollType::wait_indefinitely());
-        done.map(|_| ()).map_err(|e| self.error(e.to_string()))
+        done.map_err(|e| self.error(e.to_string()))?;
+        self.check()
     }
 }

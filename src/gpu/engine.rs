@@ -8,12 +8,12 @@ use super::program::Program;
 use super::readback::Readback;
 use super::rim::FreeRim;
 use super::stage::{Bound, StagePrograms};
+use super::verdict;
 use crate::engine::{Engine, EngineInfo, Probe, StageSetup, State, Step, SurfaceSum, Window, Works};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::model::{Model, frame};
 use crate::physics::rim::{self, Coordinates};
 use crate::scene::{Friction, Road, Scene};
-use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 /// Threads of a work group, as written in every kernel.
@@ -29,7 +29,6 @@ const RIM: u32 = 0x8000_0000;
 /// The GPU engine.
 pub struct GpuEngine {
     gpu: Gpu,
-    errors: Arc<Mutex<Option<String>>>,
     choice: Choice,
     constants: Vec<(&'static str, f64)>,
     buffers: Buffers,
@@ -40,7 +39,8 @@ pub struct GpuEngine {
     surface_state: Option<Bound>,
     rebase: Option<Bound>,
     reductions: Reductions,
-    stage: StagePrograms,
+    /// Composed when the first stage begins.
+    stage: Option<StagePrograms>,
     setup: StageSetup,
     rim: FreeRim,
     road: Option<Road>,
@@ -50,6 +50,7 @@ pub struct GpuEngine {
     steps: u64,
     window_steps: u64,
     steps_per_submit: usize,
+    fixed_submits: bool,
     surface_nodes: Vec<u32>,
 }
 
@@ -91,12 +92,7 @@ impl GpuEngine {
     /// # Errors
     /// The scene does not fit the adapter's limits, or (`plus`) the adapter's arithmetic spoils compensated sums.
     pub fn new(gpu: &Gpu, model: &Model, scene: &Scene, plus: bool) -> Result<Self> {
-        buffers::check_limits(gpu, model)?;
-        let errors = Arc::new(Mutex::new(None));
-        let sink = errors.clone();
-        gpu.device.on_uncaptured_error(Arc::new(move |e: wgpu::Error| {
-            sink.lock().expect("no one panics holding it").get_or_insert(e.to_string());
-        }));
+        buffers::check_limits(gpu, model, scene.road.is_some())?;
         let choice = Choice {
             element: model.element,
             law: model.law,
@@ -115,15 +111,15 @@ impl GpuEngine {
             nodes: model.node_count(),
             surface: if choice.road { model.mesh.surface.len() } else { 0 },
             rim: model.mesh.rim.len(),
-            most_groups: gpu.device.limits().max_compute_workgroups_per_dimension,
+            most_groups: gpu.report.workgroups,
         };
         let constants = constants(model, scene);
         let buffers = upload(gpu, model, &choice, &counts, frame);
         let program = |kernel| Program::new(gpu, &choice, kernel, &constants);
         let bound = |p: Program| Bound::new(gpu, p, |name| buffers.get(canonical(name)));
-        let force = bound(program(Kernel::ElementForce)?);
-        let trial_force =
-            Bound::new(gpu, program(Kernel::ElementForce)?, |name| buffers.get(trial(canonical(name))));
+        let element_force = program(Kernel::ElementForce)?;
+        let force = bound(element_force.clone());
+        let trial_force = Bound::new(gpu, element_force, |name| buffers.get(trial(canonical(name))));
         let surface_state = match counts.surface {
             0 => None,
             _ => Some(bound(program(Kernel::SurfaceState)?)),
@@ -133,7 +129,6 @@ impl GpuEngine {
             _ => Some(bound(program(Kernel::Rebase)?)),
         };
         let reductions = Reductions::new(gpu, &choice, &buffers, counts.rim > 0)?;
-        let stage = StagePrograms::new(gpu, &choice, &constants, &buffers, &StageSetup::default(), model)?;
         let engine = GpuEngine {
             gather: bound(program(Kernel::Gather)?),
             energy: bound(program(Kernel::ElementEnergy)?),
@@ -144,8 +139,8 @@ impl GpuEngine {
             steps: 0,
             window_steps: 0,
             steps_per_submit: 8,
+            fixed_submits: false,
             surface_nodes: if choice.road { model.mesh.surface.clone() } else { Vec::new() },
-            errors,
             choice,
             constants,
             buffers,
@@ -154,34 +149,43 @@ impl GpuEngine {
             surface_state,
             rebase,
             reductions,
-            stage,
+            stage: None,
             frame,
             grain,
             counts,
         };
-        engine.check_device()?;
+        gpu.check()?;
         if plus {
             super::check::compensated_sums(gpu, &engine.choice)?;
         }
         Ok(engine)
     }
 
-    /// An error that wgpu reported since the last look.
-    pub(super) fn check_device(&self) -> Result<()> {
-        match self.errors.lock().expect("no one panics holding it").take() {
-            Some(detail) => Err(self.gpu.error(detail)),
-            None => Ok(()),
-        }
+    /// Fixes how many steps one submission holds (at most the plan's length), or (`None`) lets the time a submission
+    /// takes decide, as it does at first. Results do not depend on it.
+    pub fn set_steps_per_submit(&mut self, steps: Option<usize>) {
+        self.fixed_submits = steps.is_some();
+        self.steps_per_submit = steps.unwrap_or(8).clamp(1, PLAN);
     }
 
-    fn wait(&self) -> Result<()> {
-        self.gpu.wait()?;
-        self.check_device()
+    /// Composes the stage's programs, if no stage has begun yet.
+    fn ready(&mut self) -> Result<()> {
+        if self.stage.is_none() { self.compose_stage() } else { Ok(()) }
+    }
+
+    fn compose_stage(&mut self) -> Result<()> {
+        let Self { gpu, choice, constants, buffers, setup, rim, .. } = self;
+        self.stage = Some(StagePrograms::new(gpu, choice, constants, buffers, setup, rim)?);
+        self.gpu.check()
+    }
+
+    fn has_free_rim(&self) -> bool {
+        self.choice.for_stage(&self.setup).rim == RimKind::Free
     }
 
     /// A step as the shaders read it. `weights`: of the velocities before and after in works; of the viscous power.
     fn plan_entry(&self, index: u64, step: &Step, before: &Coordinates, weights: [f64; 3]) -> layout::Step {
-        let free = self.stage.has_free_rim();
+        let free = self.has_free_rim();
         let local = |q: &Coordinates| vec4(std::array::from_fn(|d| q[d] - self.frame[d]));
         let (now, then) = (rim::rotation(before), rim::rotation(&step.rim));
         let columns = |m: glam::DMat3| m.to_cols_array_2d().map(vec4);
@@ -220,13 +224,13 @@ impl GpuEngine {
     }
 
     /// Encodes the passes of one step whose plan entry is `slot`.
-    fn encode_step(&self, pass: &mut wgpu::ComputePass, slot: usize) {
+    fn encode_step(&self, stage: &StagePrograms, pass: &mut wgpu::ComputePass, slot: usize) {
         let offset = (slot * STEP_STRIDE) as u32;
         self.force.dispatch(pass, self.counts.groups(self.counts.elements), offset);
-        if let Some(rim) = &self.stage.rim {
+        if let Some(rim) = &stage.rim {
             rim.dispatch(pass, [1, 1, 1], offset);
         }
-        self.stage.node.dispatch(pass, self.counts.groups(self.counts.nodes), offset);
+        stage.node.dispatch(pass, self.counts.groups(self.counts.nodes), offset);
     }
 
     /// Submits `steps` in one go and waits.
@@ -237,18 +241,22 @@ impl GpuEngine {
         };
         let entries: Vec<layout::Step> = steps.iter().zip(starts).enumerate().map(entry).collect();
         self.write_plan(&entries);
+        self.ready()?;
+        let stage = self.stage.as_ref().expect("it is ready");
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             for slot in 0..steps.len() {
-                self.encode_step(&mut pass, slot);
+                self.encode_step(stage, &mut pass, slot);
             }
         }
         let begun = Instant::now();
         self.gpu.queue.submit([encoder.finish()]);
-        self.wait()?;
+        self.gpu.wait()?;
         let each = begun.elapsed().as_secs_f64() / steps.len() as f64;
-        self.steps_per_submit = ((SUBMIT.as_secs_f64() / each) as usize).clamp(1, PLAN);
+        if !self.fixed_submits {
+            self.steps_per_submit = ((SUBMIT.as_secs_f64() / each) as usize).clamp(1, PLAN);
+        }
         self.steps += steps.len() as u64;
         self.window_steps += steps.len() as u64;
         Ok(())
@@ -259,24 +267,11 @@ impl GpuEngine {
         let mut read = Readback::default();
         let failure = read.add(self.buffers.get("failure"));
         let done = read.add(self.buffers.get("done"));
-        let data = read.run(self, |_| {})?;
-        let failure: &[u32] = bytemuck::cast_slice(data.part(failure));
-        if failure[0] != u32::MAX {
-            let step = first + u64::from(failure[0].wrapping_sub(first as u32));
-            let time = steps.get((step - first) as usize).map_or(f64::NAN, |s| s.time);
-            let element = (failure[1] / 2) as usize;
-            return Err(match failure[1] % 2 {
-                0 => Error::Inverted { step, time, element },
-                _ => Error::NotFinite { step, time, element },
-            });
-        }
-        let done: &[u32] = bytemuck::cast_slice(data.part(done));
-        if done[0] != (self.steps - 1) as u32 {
-            let detail =
-                format!("the device stopped at step {} of {} without an error", done[0], self.steps - 1);
-            return Err(self.gpu.error(detail));
-        }
-        Ok(())
+        let data = read.run(&self.gpu, |_| {})?;
+        let flag = |part| -> &[u32] { bytemuck::cast_slice(data.part(part)) };
+        let (failure, done) = (flag(failure), flag(done)[0]);
+        verdict::failure([failure[0], failure[1]], steps, first)?;
+        verdict::sentinel(done, self.steps).map_err(|detail| self.gpu.error(detail))
     }
 
     /// Lets the frame follow the axle.
@@ -293,14 +288,12 @@ impl GpuEngine {
         rebase.dispatch(&mut pass, self.counts.groups(self.counts.nodes), 0);
         drop(pass);
         self.gpu.queue.submit([encoder.finish()]);
-        for d in 0..3 {
-            self.frame[d] += shift[d];
-        }
-        self.wait()
+        self.frame.iter_mut().zip(shift).for_each(|(frame, shift)| *frame += shift);
+        self.gpu.wait()
     }
 
     /// Encodes everything a sample needs before it is copied out.
-    fn encode_sample(&self, encoder: &mut wgpu::CommandEncoder) {
+    fn encode_sample(&self, stage: &StagePrograms, encoder: &mut wgpu::CommandEncoder) {
         let counts = &self.counts;
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
@@ -319,16 +312,16 @@ impl GpuEngine {
             encoder.copy_buffer_to_buffer(from, 0, to, 0, from.size());
             encoder.clear_buffer(self.buffers.get("viscous_work"), 0, None);
         }
-        if self.stage.has_free_rim() {
+        if self.has_free_rim() {
             let (from, to) = (self.buffers.get("rim_state"), self.buffers.get("rim_state_probe"));
             encoder.copy_buffer_to_buffer(from, 0, to, 0, from.size());
         }
         let mut pass = encoder.begin_compute_pass(&Default::default());
         self.force.dispatch(&mut pass, counts.groups(counts.elements), 0);
-        if let Some(rim) = &self.stage.probe_rim {
+        if let Some(rim) = &stage.probe_rim {
             rim.dispatch(&mut pass, [1, 1, 1], 0);
         }
-        self.stage.probe.dispatch(&mut pass, counts.groups(counts.nodes), 0);
+        stage.probe.dispatch(&mut pass, counts.groups(counts.nodes), 0);
         self.reductions.probes.dispatch(&mut pass, [PARTIALS as u32, 3, 1], 0);
         if let Some(viscous) = &self.reductions.viscous {
             viscous.dispatch(&mut pass, [PARTIALS as u32, 1, 1], 0);
@@ -353,7 +346,7 @@ impl GpuEngine {
     }
 
     fn write_rim(&self) {
-        if self.stage.has_free_rim() {
+        if self.has_free_rim() {
             let state = self.rim.upload(self.frame);
             self.gpu.queue.write_buffer(self.buffers.get("rim_state"), 0, bytemuck::bytes_of(&state));
         }
@@ -366,10 +359,6 @@ impl GpuEngine {
             f64::from(hi[4 * n + d]) + low + self.frame[d]
         };
         (0..hi.len() / 4).map(|n| std::array::from_fn(|d| at(n, d))).collect()
-    }
-
-    pub(super) fn gpu(&self) -> &Gpu {
-        &self.gpu
     }
 }
 
@@ -486,7 +475,8 @@ fn upload(gpu: &Gpu, model: &Model, choice: &Choice, counts: &Counts, frame: [f6
     }
     b.filled(gpu, "failure", &[u32::MAX; 4]);
     b.filled(gpu, "trial_failure", &[u32::MAX; 4]);
-    b.zeroed::<u32>(gpu, "done", 4);
+    // No step has this index: a submission that does nothing is noticed, the first one too.
+    b.filled(gpu, "done", &[u32::MAX; 4]);
     b.uniform(gpu, "step", PLAN * STEP_STRIDE);
     b.uniform(gpu, "shift", 16);
     b
@@ -524,23 +514,18 @@ impl Engine for GpuEngine {
     }
 
     fn begin_stage(&mut self, setup: &StageSetup) -> Result<()> {
-        if *setup != self.setup {
-            self.stage = self.stage.rebuilt(
-                &self.gpu,
-                &self.choice,
-                &self.constants,
-                &self.buffers,
-                setup,
-                &self.rim,
-            )?;
+        if *setup != self.setup || self.stage.is_none() {
             self.setup = *setup;
-            self.check_device()?;
+            self.compose_stage()?;
         }
         self.write_rim();
         Ok(())
     }
 
     fn advance(&mut self, steps: &[Step]) -> Result<()> {
+        if steps.is_empty() {
+            return Ok(());
+        }
         let first = self.steps;
         let starts: Vec<Coordinates> =
             std::iter::once(self.rim.q).chain(steps.iter().map(|s| s.rim)).take(steps.len()).collect();
@@ -550,15 +535,16 @@ impl Engine for GpuEngine {
             self.submit(&steps[at..end], &starts[at..end])?;
             at = end;
         }
-        if !self.stage.has_free_rim()
-            && let Some(last) = steps.last()
-        {
+        if let (false, Some(last), Some(before)) = (self.has_free_rim(), steps.last(), starts.last()) {
+            self.rim.rate = std::array::from_fn(|c| (last.rim[c] - before[c]) / last.dt);
             self.rim.q = last.rim;
         }
         self.check_steps(steps, first)
     }
 
     fn sample(&mut self, next: &Step) -> Result<Window> {
+        self.ready()?;
+        let stage = self.stage.as_ref().expect("it is ready");
         let half = 0.5 * next.dt_before;
         let entry = self.plan_entry(self.steps, next, &self.rim.q, [half, 0.0, half]);
         self.write_plan(&[entry]);
@@ -575,10 +561,10 @@ impl Engine for GpuEngine {
             "rim_state",
         ];
         let parts = names.map(|n| read.add(self.buffers.get(n)));
-        let data = read.run(self, |encoder| self.encode_sample(encoder))?;
+        let data = read.run(&self.gpu, |encoder| self.encode_sample(stage, encoder))?;
         let [works, rim, viscous, half_viscous, probes, energies, sums, states, rim_state] =
             parts.map(|p| data.part(p));
-        if self.stage.has_free_rim() {
+        if self.has_free_rim() {
             self.rim.download(bytemuck::from_bytes(rim_state));
         }
         let mut window = Window {
@@ -633,7 +619,7 @@ impl Engine for GpuEngine {
         let mut read = Readback::default();
         let (x, v) = (read.add(self.buffers.get("positions")), read.add(self.buffers.get("velocities")));
         let lo = self.choice.plus.then(|| read.add(self.buffers.get("positions_lo")));
-        let data = read.run(self, |_| {})?;
+        let data = read.run(&self.gpu, |_| {})?;
         let floats = |part| -> &[f32] { bytemuck::cast_slice(data.part(part)) };
         let v = floats(v).chunks_exact(4).map(|v| [v[0], v[1], v[2]].map(f64::from)).collect();
         Ok(State { x: self.absolute(floats(x), lo.map(floats)), v })
@@ -644,7 +630,7 @@ impl Engine for GpuEngine {
         self.gpu.queue.write_buffer(self.buffers.get("velocities"), 0, bytemuck::cast_slice(&v));
         self.rim.set_rate(&self.setup, rim_rate);
         self.write_rim();
-        self.check_device()
+        self.gpu.check()
     }
 
     fn force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {
@@ -660,7 +646,7 @@ impl Engine for GpuEngine {
         }
         let mut read = Readback::default();
         let forces = read.add(self.buffers.get("forces"));
-        let data = read.run(self, |encoder| {
+        let data = read.run(&self.gpu, |encoder| {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             self.trial_force.dispatch(&mut pass, self.counts.groups(self.counts.elements), 0);
             self.gather.dispatch(&mut pass, self.counts.groups(self.counts.nodes), 0);

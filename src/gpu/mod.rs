@@ -10,6 +10,7 @@ pub mod program;
 mod readback;
 mod rim;
 mod stage;
+mod verdict;
 
-pub use device::{AdapterReport, Gpu, adapters};
-pub use engine::GpuEngine;
+pub use device::{AdapterReport, Gpu, STORAGE_BUFFERS, adapters};
+pub use engine::{Counts, GpuEngine};

@@ -4,6 +4,8 @@ use super::Gpu;
 use super::compose::{Choice, Kernel};
 use super::layout::Step;
 use crate::error::Result;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex};
 
 /// A binding of a composed module.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -42,7 +44,16 @@ pub fn bindings(module: &naga::Module) -> Vec<Binding> {
     all
 }
 
-/// A pipeline and what it binds.
+/// Programs of a device by their text and constants: what two engines, two stages or two uses of one kernel share is
+/// compiled once.
+#[derive(Debug, Clone, Default)]
+pub struct Programs(Arc<Mutex<HashMap<Key, Program>>>);
+
+/// Text and the bits of the constants it declares.
+type Key = (String, Vec<(String, u64)>);
+
+/// A pipeline and what it binds; a clone is the same pipeline.
+#[derive(Debug, Clone)]
 pub struct Program {
     pub pipeline: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
@@ -50,26 +61,39 @@ pub struct Program {
 }
 
 impl Program {
-    /// Composes and compiles a kernel; of `constants` those the module declares are set.
+    /// Composes and compiles a kernel, or takes it from those compiled before; of `constants` those the module
+    /// declares are set.
     pub fn new(gpu: &Gpu, choice: &Choice, kernel: Kernel, constants: &[(&str, f64)]) -> Result<Program> {
         let module = choice.module(kernel)?;
-        let bindings = bindings(&module);
         let declared = |name: &str| module.overrides.iter().any(|(_, o)| o.name.as_deref() == Some(name));
         let constants: Vec<(&str, f64)> = constants.iter().copied().filter(|(n, _)| declared(n)).collect();
-        let label = format!("{kernel:?}");
+        let bits = constants.iter().map(|(name, value)| (name.to_string(), value.to_bits())).collect();
+        let key = (choice.text(kernel), bits);
+        let known = |gpu: &Gpu| gpu.programs.0.lock().expect("no one panics holding it").get(&key).cloned();
+        if let Some(program) = known(gpu) {
+            return Ok(program);
+        }
+        let program = Program::compile(gpu, module, &format!("{kernel:?}"), &constants);
+        gpu.check()?;
+        gpu.programs.0.lock().expect("no one panics holding it").insert(key, program.clone());
+        Ok(program)
+    }
+
+    fn compile(gpu: &Gpu, module: naga::Module, label: &str, constants: &[(&str, f64)]) -> Program {
+        let bindings = bindings(&module);
         let entries: Vec<wgpu::BindGroupLayoutEntry> = bindings.iter().map(layout_entry).collect();
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some(&label),
+            label: Some(label),
             entries: &entries,
         });
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(&label),
+            label: Some(label),
             bind_group_layouts: &[Some(&layout)],
             immediate_size: 0,
         });
         let descriptor = wgpu::ShaderModuleDescriptor {
-            label: Some(&label),
-            source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(module.clone())),
+            label: Some(label),
+            source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(module)),
         };
         // Bounds checks and loop guards cost a good part of a memory-bound kernel; debug builds (the tests) keep them.
         let checks = if cfg!(debug_assertions) {
@@ -81,17 +105,17 @@ impl Program {
         // are built to the sizes of the buffers they index, or is compared with arrayLength; loops run over them.
         let shader = unsafe { gpu.device.create_shader_module_trusted(descriptor, checks) };
         let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(&label),
+            label: Some(label),
             layout: Some(&pipeline_layout),
             module: &shader,
             entry_point: Some("main"),
             compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &constants,
+                constants,
                 zero_initialize_workgroup_memory: false,
             },
             cache: None,
         });
-        Ok(Program { pipeline, layout, bindings })
+        Program { pipeline, layout, bindings }
     }
 
     /// A bind group with the buffer that `of` names for each binding.

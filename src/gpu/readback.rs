@@ -1,7 +1,6 @@
 //! Copies of buffers to the host, several in one submission.
 
 use super::Gpu;
-use super::engine::GpuEngine;
 use crate::error::Result;
 
 /// Buffers to be read together.
@@ -36,12 +35,10 @@ impl<'b> Readback<'b> {
     }
 
     /// Runs `before` and the copies in one submission, and waits for it.
-    pub fn run(self, engine: &GpuEngine, before: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<Data> {
-        let mut encoder = engine.gpu().device.create_command_encoder(&Default::default());
+    pub fn run(self, gpu: &Gpu, before: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<Data> {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
         before(&mut encoder);
-        let data = self.copy(engine.gpu(), encoder)?;
-        engine.check_device()?;
-        Ok(data)
+        self.copy(gpu, encoder)
     }
 
     /// Appends the copies to `encoder`, submits it and waits.

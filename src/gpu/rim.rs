@@ -33,9 +33,9 @@ impl FreeRim {
     }
 
     pub fn set_rate(&mut self, setup: &StageSetup, rate: &Coordinates) {
-        for component in 0..6 {
-            if setup.free[component].is_some() {
-                self.rate[component] = rate[component];
+        for ((own, given), free) in self.rate.iter_mut().zip(rate).zip(&setup.free) {
+            if free.is_some() {
+                *own = *given;
             }
         }
     }

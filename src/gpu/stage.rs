@@ -8,7 +8,6 @@ use super::program::Program;
 use super::rim::FreeRim;
 use crate::engine::StageSetup;
 use crate::error::Result;
-use crate::model::Model;
 use crate::physics::rim::SPIN;
 
 /// A program with its buffers.
@@ -42,20 +41,8 @@ pub struct StagePrograms {
 }
 
 impl StagePrograms {
+    /// Composes what a stage needs.
     pub fn new(
-        gpu: &Gpu,
-        choice: &Choice,
-        constants: &[(&'static str, f64)],
-        buffers: &Buffers,
-        setup: &StageSetup,
-        model: &Model,
-    ) -> Result<StagePrograms> {
-        compose(gpu, choice, constants, buffers, setup, &FreeRim::new(model))
-    }
-
-    /// The same for another stage.
-    pub fn rebuilt(
-        &self,
         gpu: &Gpu,
         choice: &Choice,
         constants: &[(&'static str, f64)],
@@ -63,11 +50,24 @@ impl StagePrograms {
         setup: &StageSetup,
         rim: &FreeRim,
     ) -> Result<StagePrograms> {
-        compose(gpu, choice, constants, buffers, setup, rim)
-    }
-
-    pub fn has_free_rim(&self) -> bool {
-        self.rim.is_some()
+        let choice = choice.for_stage(setup);
+        let constants = [constants, &stage_constants(setup, rim)].concat();
+        let program = |kernel| Program::new(gpu, &choice, kernel, &constants);
+        let of = |name: &str| buffers.get(canonical(name));
+        let of_probe =
+            |name: &str| buffers.get(if name == "rim_state" { "rim_state_probe" } else { canonical(name) });
+        let (rim, probe_rim) = if choice.rim == RimKind::Free {
+            let rim = program(Kernel::Rim)?;
+            (Some(Bound::new(gpu, rim.clone(), of)), Some(Bound::new(gpu, rim, of_probe)))
+        } else {
+            (None, None)
+        };
+        Ok(StagePrograms {
+            node: Bound::new(gpu, program(Kernel::Node)?, of),
+            probe: Bound::new(gpu, program(Kernel::NodeProbe)?, of_probe),
+            rim,
+            probe_rim,
+        })
     }
 }
 
@@ -84,17 +84,9 @@ impl Choice {
     }
 }
 
-fn compose(
-    gpu: &Gpu,
-    choice: &Choice,
-    constants: &[(&'static str, f64)],
-    buffers: &Buffers,
-    setup: &StageSetup,
-    rim: &FreeRim,
-) -> Result<StagePrograms> {
-    let choice = choice.for_stage(setup);
-    let mut constants = constants.to_vec();
-    constants.extend([("alpha", setup.mass_damping), ("rim_alpha", setup.mass_damping)]);
+/// Constants that change from stage to stage.
+fn stage_constants(setup: &StageSetup, rim: &FreeRim) -> Vec<(&'static str, f64)> {
+    let mut constants = vec![("alpha", setup.mass_damping), ("rim_alpha", setup.mass_damping)];
     let translations = ["free_x", "free_y", "free_z"].into_iter().zip([
         "inverse_mass_x",
         "inverse_mass_y",
@@ -107,20 +99,5 @@ fn compose(
     }
     constants.push(("free_spin", f64::from(u8::from(setup.free[SPIN].is_some()))));
     constants.push(("inverse_inertia", setup.free[SPIN].map_or(0.0, |i| 1.0 / (i + rim.node_inertia))));
-    let program = |kernel| Program::new(gpu, &choice, kernel, &constants);
-    let of = |name: &str| buffers.get(canonical(name));
-    let of_probe =
-        |name: &str| buffers.get(if name == "rim_state" { "rim_state_probe" } else { canonical(name) });
-    let (rim, probe_rim) = if choice.rim == RimKind::Free {
-        let rim = Bound::new(gpu, program(Kernel::Rim)?, of);
-        (Some(rim), Some(Bound::new(gpu, program(Kernel::Rim)?, of_probe)))
-    } else {
-        (None, None)
-    };
-    Ok(StagePrograms {
-        node: Bound::new(gpu, program(Kernel::Node)?, of),
-        probe: Bound::new(gpu, program(Kernel::NodeProbe)?, of_probe),
-        rim,
-        probe_rim,
-    })
+    constants
 }

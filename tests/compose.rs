@@ -1,0 +1,437 @@
+//! Every kernel holds what its scene uses and nothing else. Proved on the composed text, without an adapter.
+//!
+//! The parts that decide a kernel's text are few: all combinations of 3 elements, 3 laws, 3 rims, road and friction,
+//! viscosity, gravity, damping and pair positions give some 200 different texts, and every one of them is checked.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::path::Path;
+use std::sync::LazyLock;
+
+use hexroll::gpu::Counts;
+use hexroll::gpu::compose::{Choice, Kernel, PARTS, RimKind};
+use hexroll::gpu::layout;
+use hexroll::scene::{Element, Law};
+use naga::{Block, Expression, Function, GlobalVariable, Handle, Module, Statement};
+
+const KERNELS: [Kernel; 10] = [
+    Kernel::ElementForce,
+    Kernel::ElementEnergy,
+    Kernel::Node,
+    Kernel::NodeProbe,
+    Kernel::Rim,
+    Kernel::SurfaceState,
+    Kernel::Gather,
+    Kernel::Reduce,
+    Kernel::Rebase,
+    Kernel::CheckSums,
+];
+
+fn choices() -> Vec<Choice> {
+    let elements = [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
+    let laws = [
+        Law::NeoHookean { g0: 1.0, g1: 1.0 },
+        Law::MooneyRivlin { g0: 1.0, g1: 1.0, g2: 1.0 },
+        Law::MooneyRivlinEq4 { g0: 1.0, g1: 1.0, g2: 1.0 },
+    ];
+    let mut all = Vec::new();
+    for element in elements {
+        for law in laws {
+            for rim in [RimKind::None, RimKind::Prescribed, RimKind::Free] {
+                for (road, friction) in [(false, false), (true, false), (true, true)] {
+                    for bits in 0..16 {
+                        let bit = |k: u32| bits >> k & 1 == 1;
+                        let (viscous, gravity, damping, plus) = (bit(0), bit(1), bit(2), bit(3));
+                        let choice =
+                            Choice { element, law, viscous, road, friction, gravity, damping, rim, plus };
+                        all.push(choice);
+                    }
+                }
+            }
+        }
+    }
+    all
+}
+
+/// A composed text, as it is before anything is dropped from it.
+struct Composed {
+    choice: Choice,
+    kernel: Kernel,
+    text: String,
+    module: Module,
+}
+
+/// Every different text, with a choice that makes it.
+fn composed() -> &'static [Composed] {
+    static ALL: LazyLock<Vec<Composed>> = LazyLock::new(|| {
+        let mut seen = HashSet::new();
+        let all = choices().into_iter().flat_map(|c| KERNELS.map(|k| (c, k, c.text(k))));
+        let new = |(choice, kernel, text): (Choice, Kernel, String)| {
+            seen.insert(text.clone()).then(|| Composed { choice, kernel, module: parse(&text), text })
+        };
+        all.filter_map(new).collect()
+    });
+    &ALL
+}
+
+/// What an entry point reaches.
+#[derive(Default)]
+struct Reached {
+    functions: BTreeSet<Handle<Function>>,
+    globals: BTreeSet<Handle<GlobalVariable>>,
+    overrides: BTreeSet<Handle<naga::Override>>,
+}
+
+impl Reached {
+    fn from_entry(module: &Module) -> Reached {
+        let mut reached = Reached::default();
+        for entry in &module.entry_points {
+            reached.function(module, &entry.function);
+        }
+        reached
+    }
+
+    fn function(&mut self, module: &Module, function: &Function) {
+        self.expressions(function.expressions.iter().map(|(_, e)| e));
+        self.block(module, &function.body);
+    }
+
+    fn expressions<'e>(&mut self, all: impl Iterator<Item = &'e Expression>) {
+        for expression in all {
+            match *expression {
+                Expression::GlobalVariable(global) => drop(self.globals.insert(global)),
+                Expression::Override(value) => drop(self.overrides.insert(value)),
+                _ => {}
+            }
+        }
+    }
+
+    fn block(&mut self, module: &Module, block: &Block) {
+        for statement in block {
+            match statement {
+                Statement::Call { function, .. } if self.functions.insert(*function) => {
+                    self.function(module, &module.functions[*function]);
+                }
+                Statement::Block(inner) => self.block(module, inner),
+                Statement::If { accept, reject, .. } => {
+                    self.block(module, accept);
+                    self.block(module, reject);
+                }
+                Statement::Loop { body, continuing, .. } => {
+                    self.block(module, body);
+                    self.block(module, continuing);
+                }
+                Statement::Switch { cases, .. } => cases.iter().for_each(|c| self.block(module, &c.body)),
+                _ => {}
+            }
+        }
+    }
+
+    /// Names of what a module has and its entry point does not reach.
+    fn missed(&self, module: &Module) -> BTreeSet<String> {
+        let name = |n: &Option<String>| n.clone().expect("everything in our WGSL has a name");
+        let functions = module.functions.iter().filter(|(h, _)| !self.functions.contains(h));
+        let globals = module.global_variables.iter().filter(|(h, _)| !self.globals.contains(h));
+        let overrides = module.overrides.iter().filter(|(h, _)| !self.overrides.contains(h));
+        (functions.map(|(_, f)| name(&f.name)))
+            .chain(globals.map(|(_, g)| name(&g.name)))
+            .chain(overrides.map(|(_, o)| name(&o.name)))
+            .collect()
+    }
+}
+
+fn parse(text: &str) -> Module {
+    naga::front::wgsl::parse_str(text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)))
+}
+
+/// Names of functions, bindings and overrides that a part declares.
+fn declared(part: &str) -> BTreeSet<String> {
+    let source = PARTS.iter().find(|(name, _)| *name == part).unwrap_or_else(|| panic!("no part {part}")).1;
+    let after = |line: &str, word: &str| -> Option<String> {
+        let rest = &line[line.find(word)? + word.len()..];
+        let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+        Some(rest[..end].to_string())
+    };
+    let name = |line: &str| {
+        let starts = [("fn ", "fn "), ("override ", "override "), ("@group", "> "), ("var<workgroup>", "> ")];
+        starts.iter().find(|(start, _)| line.starts_with(start)).and_then(|(_, before)| after(line, before))
+    };
+    source.lines().filter_map(name).collect()
+}
+
+/// Names in a composed module.
+fn names(module: &Module) -> BTreeSet<String> {
+    let functions = module.functions.iter().filter_map(|(_, f)| f.name.clone());
+    let globals = module.global_variables.iter().filter_map(|(_, g)| g.name.clone());
+    let overrides = module.overrides.iter().filter_map(|(_, o)| o.name.clone());
+    functions.chain(globals).chain(overrides).collect()
+}
+
+/// What a kernel may bring without using it: files that hold the few functions of one subject, of which a kernel
+/// calls some. Everything else that is composed must be reached.
+const SHARED: [(&str, &[&str]); 13] = [
+    // Element passes: the force pass needs the stress and not the energy, the energy pass the other way round;
+    // elements with points need the Gauss lines, the uniform-gradient one does not.
+    ("lib/hex8", &["interpolate", "gradients", "half_edges", "scatter", "cofactor"]),
+    ("lib/points", &["point", "internal_forces", "point_energy", "element_energy", "volume"]),
+    ("lib/invariants_i1", &["force_matrix"]),
+    ("lib/invariants_i2", &["force_matrix"]),
+    ("element/q1p0", &["mean_pressure", "point_pressure", "mean_U", "point_U"]),
+    ("element/full", &["mean_pressure", "point_pressure", "mean_U", "point_U"]),
+    ("element/uniform_gradient", &["corner_forces", "less_outer", "mean_stress", "element_energy"]),
+    ("material/neo_hookean", &["psi", "first_piola", "U", "dU"]),
+    ("material/mooney_rivlin", &["psi", "first_piola", "U", "dU"]),
+    ("material/mooney_rivlin_eq4", &["psi", "first_piola", "U", "dU"]),
+    // Corner positions come as half edges (points) or as offsets (uniform gradient).
+    ("position/f32", &["load_half_edges", "load_offsets"]),
+    ("position/f32_plus", &["load_half_edges", "load_offsets", "sum_pair"]),
+    // Every kernel folds its index, the force pass alone looks for NaN.
+    ("lib/index", &["is_finite"]),
+];
+
+/// Whether `name` is one a kernel made of `parts` may bring unused.
+fn may_be_unused(parts: &[&str], name: &str) -> bool {
+    SHARED.iter().any(|(part, names)| parts.contains(part) && names.contains(&name))
+}
+
+#[test]
+fn every_composition_is_valid_and_all_of_it_is_reached() {
+    let all = composed();
+    assert!((150..400).contains(&all.len()), "{} texts", all.len());
+    for Composed { choice, kernel, .. } in all {
+        let module = choice.module(*kernel).unwrap_or_else(|e| panic!("{choice:?}: {e}"));
+        assert_eq!(module.entry_points.len(), 1);
+        let missed = Reached::from_entry(&module).missed(&module);
+        assert!(missed.is_empty(), "{kernel:?} of {choice:?} has {missed:?} and does not use it");
+    }
+}
+
+#[test]
+fn no_part_brings_what_its_kernel_does_not_use() {
+    let mut all: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for Composed { choice, kernel, module, .. } in composed() {
+        let parts = choice.parts(*kernel);
+        let missed = Reached::from_entry(module).missed(module);
+        let unwanted = missed.into_iter().filter(|name| !may_be_unused(&parts, name));
+        all.entry(format!("{kernel:?}")).or_default().extend(unwanted);
+    }
+    all.retain(|_, names| !names.is_empty());
+    assert!(all.is_empty(), "brought and not used: {all:?}");
+}
+
+/// The walk sees what it must see: an unused function, a function used by an unused one only, an unused binding and
+/// an unused override.
+#[test]
+fn an_unused_part_is_found() {
+    let unused = "override spare: f32; @group(0) @binding(99) var<storage, read> lost: array<f32>;
+        fn inner() -> f32 { return 1.0; } fn outer() -> f32 { return inner(); }";
+    let module = parse(&format!("{}{unused}", composed()[0].text));
+    let missed = Reached::from_entry(&module).missed(&module);
+    for name in ["spare", "lost", "inner", "outer"] {
+        assert!(missed.contains(name) && !may_be_unused(&["lib/index"], name), "{name} was not found");
+    }
+}
+
+#[test]
+fn every_function_is_used_by_some_composition() {
+    let mut used: HashMap<String, bool> = HashMap::new();
+    for Composed { module, .. } in composed() {
+        let missed = Reached::from_entry(module).missed(module);
+        for name in names(module) {
+            let is_used = !missed.contains(&name);
+            *used.entry(name).or_default() |= is_used;
+        }
+    }
+    let idle: Vec<&String> = used.iter().filter(|(_, used)| !**used).map(|(name, _)| name).collect();
+    assert!(idle.is_empty(), "no kernel uses {idle:?}");
+}
+
+/// A feature: its files, those that stand in for it, and whether a choice has it.
+struct Feature {
+    name: &'static str,
+    files: &'static [&'static str],
+    instead: &'static [&'static str],
+    chosen: fn(&Choice) -> bool,
+}
+
+const FEATURES: [Feature; 7] = [
+    Feature {
+        name: "friction",
+        files: &["friction/coulomb", "road/velocity", "contact/friction"],
+        instead: &["contact/frictionless"],
+        chosen: |c| c.friction,
+    },
+    Feature {
+        name: "contact",
+        files: &["contact/project", "contact/book", "contact/landing", "road/plane"],
+        instead: &["contact/none", "contact/book_none", "contact/landing_none"],
+        chosen: |c| c.road,
+    },
+    Feature {
+        name: "viscosity",
+        files: &["viscosity/kelvin_voigt", "viscosity/book", "lib/points_viscous", "lib/mean_viscous"],
+        instead: &["viscosity/book_none", "lib/points_elastic", "lib/mean_elastic"],
+        chosen: |c| c.viscous,
+    },
+    Feature {
+        name: "gravity",
+        files: &["lib/gravity"],
+        instead: &["lib/gravity_none"],
+        chosen: |c| c.gravity,
+    },
+    Feature {
+        name: "damping",
+        files: &["damping/mass", "damping/book"],
+        instead: &["damping/none", "damping/book_none"],
+        chosen: |c| c.damping,
+    },
+    Feature {
+        name: "rim",
+        files: &["rim/carried", "rim/prescribed", "rim/free", "rim/book"],
+        instead: &["rim/none", "rim/book_none"],
+        chosen: |c| c.rim != RimKind::None,
+    },
+    Feature {
+        name: "pairs",
+        files: &["position/f32_plus", "position/store_f32_plus", "position/now_f32_plus", "lib/two_sum"],
+        instead: &["position/f32", "position/store_f32", "position/now_f32"],
+        chosen: |c| c.plus,
+    },
+];
+
+/// Kernels a choice compiles. The check of sums stands outside the scene, and only `f32+` runs it; the rim's own
+/// kernel belongs to free rims.
+fn compiled(choice: &Choice, kernel: Kernel) -> bool {
+    match kernel {
+        Kernel::CheckSums => choice.plus,
+        Kernel::Rim => choice.rim == RimKind::Free,
+        Kernel::Rebase => choice.rim != RimKind::None,
+        _ => true,
+    }
+}
+
+#[test]
+fn a_scene_without_a_feature_has_no_code_binding_or_constant_of_it() {
+    for feature in &FEATURES {
+        let of = |files: &[&str]| files.iter().flat_map(|f| declared(f)).collect::<BTreeSet<String>>();
+        let own: BTreeSet<String> = of(feature.files).difference(&of(feature.instead)).cloned().collect();
+        assert!(!own.is_empty(), "{} has nothing of its own", feature.name);
+        let mut present = BTreeSet::new();
+        for Composed { choice, kernel, module, .. } in composed() {
+            if !compiled(choice, *kernel) {
+                continue;
+            }
+            let found: BTreeSet<String> = names(module).intersection(&own).cloned().collect();
+            if (feature.chosen)(choice) {
+                present.extend(found);
+            } else {
+                assert!(found.is_empty(), "{kernel:?} without {} has {found:?}", feature.name);
+            }
+        }
+        assert_eq!(present, own, "a scene with {} does not have all of it", feature.name);
+    }
+}
+
+/// Memory layouts: what Rust's `repr(C)` makes of a declaration is what naga makes of its WGSL.
+#[test]
+fn host_and_shader_agree_on_every_struct() {
+    let shared = layout::all();
+    let text: String = shared.iter().map(|s| s.text.as_str()).collect();
+    let module = parse(&text);
+    assert!(shared.len() >= 9);
+    for host in &shared {
+        let (_, found) = (module.types.iter())
+            .find(|(_, t)| t.name.as_deref() == Some(host.name))
+            .unwrap_or_else(|| panic!("{} is not in the WGSL", host.name));
+        let naga::TypeInner::Struct { members, span } = &found.inner else {
+            panic!("{} is no struct", host.name)
+        };
+        assert_eq!(*span as usize, host.size, "size of {}", host.name);
+        let offsets: Vec<(&str, usize)> =
+            members.iter().map(|m| (m.name.as_deref().unwrap(), m.offset as usize)).collect();
+        assert_eq!(offsets, host.offsets, "offsets in {}", host.name);
+    }
+}
+
+#[test]
+fn every_shader_file_is_a_part_of_some_composition() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
+    let mut files = BTreeSet::new();
+    for folder in std::fs::read_dir(&root).unwrap() {
+        let folder = folder.unwrap().path();
+        let stem = folder.file_name().unwrap().to_str().unwrap().to_string();
+        // Pictures have their own shaders and are not composed.
+        if stem == "render" {
+            continue;
+        }
+        for file in std::fs::read_dir(&folder).unwrap() {
+            let file = file.unwrap().path();
+            files.insert(format!("{stem}/{}", file.file_stem().unwrap().to_str().unwrap()));
+        }
+    }
+    let listed: BTreeSet<String> = PARTS.iter().map(|(name, _)| name.to_string()).collect();
+    let used: BTreeSet<String> =
+        composed().iter().flat_map(|c| c.choice.parts(c.kernel)).map(str::to_string).collect();
+    assert_eq!(files, listed);
+    assert_eq!(listed, used);
+}
+
+/// Bindings of one kernel have one index each, and the device is asked for as many as the largest kernel has.
+#[test]
+fn the_largest_kernel_binds_what_adapters_are_asked_for() {
+    let mut most = 0;
+    for Composed { choice, kernel, .. } in composed() {
+        let module = choice.module(*kernel).unwrap();
+        let bindings = hexroll::gpu::program::bindings(&module);
+        let indices: BTreeSet<u32> = bindings.iter().map(|b| b.index).collect();
+        assert_eq!(indices.len(), bindings.len(), "{kernel:?} of {choice:?} binds an index twice");
+        let storage = |b: &&hexroll::gpu::program::Binding| {
+            matches!(b.kind, hexroll::gpu::program::BindingKind::Storage { .. })
+        };
+        most = most.max(bindings.iter().filter(storage).count());
+    }
+    assert_eq!(most, hexroll::gpu::STORAGE_BUFFERS as usize);
+}
+
+/// Dispatches fold into two dimensions; every item is met exactly once, whatever the adapter's limit.
+#[test]
+fn a_folded_dispatch_meets_every_item_once() {
+    // Sizes around every fold, with the index that shaders/lib/index.wgsl computes.
+    for most_groups in [1, 2, 3, 7] {
+        let counts = Counts { elements: 0, nodes: 0, surface: 0, rim: 0, most_groups };
+        for items in (1..400).chain([64 * 63, 64 * 64, 64 * 65 + 1]) {
+            let [columns, rows, depth] = counts.groups(items);
+            if rows > most_groups {
+                // Beyond two dimensions: far more memory than any adapter has; see the next test for real limits.
+                continue;
+            }
+            assert!(columns <= most_groups && depth == 1);
+            let mut met: BTreeMap<u32, u32> = BTreeMap::new();
+            for row in 0..rows {
+                for column in 0..columns {
+                    for lane in 0..64 {
+                        *met.entry((row * columns + column) * 64 + lane).or_default() += 1;
+                    }
+                }
+            }
+            assert!(
+                (0..items as u32).all(|i| met.get(&i) == Some(&1)),
+                "{items} items, {most_groups} groups"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_dispatch_beyond_one_dimension_is_folded() {
+    let counts = Counts { elements: 0, nodes: 0, surface: 0, rim: 0, most_groups: 65_535 };
+    let dimension = 65_535 * 64;
+    assert_eq!(counts.groups(dimension), [65_535, 1, 1]);
+    for items in [dimension + 1, 2 * dimension, 2 * dimension + 1, 100_000_000, u32::MAX as usize] {
+        let groups = counts.groups(items);
+        let threads = groups.map(u64::from).iter().product::<u64>() * 64;
+        assert!(groups.iter().all(|&g| g <= 65_535), "{groups:?}");
+        assert!(threads >= items as u64, "{groups:?} for {items}");
+        // Fewer idle groups than rows.
+        assert!(threads - (items as u64) < 64 * (u64::from(groups[1]) + 1), "{groups:?} for {items}");
+    }
+}

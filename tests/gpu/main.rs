@@ -1,0 +1,67 @@
+//! The GPU engine against the CPU's double precision, at three levels: the force law, one step, and whole runs; and
+//! what it promises of itself: bit-identical reruns, failures and limits as errors, contact that never penetrates.
+//!
+//! Needs an adapter (a software one will do); without one every trial is reported as ignored. Trials are few, since
+//! each may run in a process of its own and compiling pipelines is what takes time on a software adapter.
+//! `HEXROLL_TEST_PRINT=1` prints what is measured.
+
+#![allow(non_snake_case)] // X: reference positions
+
+mod contact;
+mod errors;
+mod far;
+mod forces;
+mod repeat;
+mod rig;
+mod rim;
+mod rolling;
+mod runs;
+mod steps;
+
+use hexroll::Error;
+use hexroll::gpu::Gpu;
+use libtest_mimic::{Arguments, Failed, Trial};
+use std::sync::Arc;
+
+type Check = fn(&Gpu);
+
+const CHECKS: [(&str, Check); 16] = [
+    ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
+    ("forces_as_pairs_are_the_cpus", forces::pairs),
+    ("a_step_with_everything_is_the_cpus", steps::everything),
+    ("a_spinning_vibrating_block_is_the_cpus", runs::spinning_block),
+    ("a_pressed_wheel_is_the_cpus", runs::pressed_wheel),
+    ("a_viscous_wheel_rolls_as_on_the_cpu", rolling::viscous),
+    ("an_elastic_wheel_rolls_as_on_the_cpu", rolling::elastic),
+    ("an_axle_pressed_by_a_force_moves_as_on_the_cpu", rim::pressed_by_a_force),
+    ("a_wheel_free_to_spin_turns_as_on_the_cpu", rim::free_to_spin),
+    ("a_rerun_is_the_same_to_the_bit", repeat::bit_identical),
+    ("far_from_the_origin_forces_are_the_same", far::offset),
+    ("the_frame_follows_a_fast_wheel", far::followed),
+    ("a_run_that_goes_wrong_says_where", errors::failures),
+    ("what_does_not_fit_is_refused", errors::limits),
+    ("what_wgpu_refuses_is_an_error", errors::device_errors),
+    ("nothing_penetrates_and_what_sticks_stays", contact::exact),
+];
+
+fn main() {
+    let mut arguments = Arguments::from_args();
+    // The device and the processor are shared by all trials: one after the other is fastest.
+    arguments.test_threads = arguments.test_threads.or(Some(1));
+    let gpu = match Gpu::open(None) {
+        Ok(gpu) => Some(gpu),
+        Err(Error::NoAdapter { .. }) => None,
+        Err(error) => panic!("{error}"),
+    };
+    let missing = gpu.is_none();
+    let gpu = Arc::new(gpu);
+    let trial = |(name, check): &(&str, Check)| {
+        let (gpu, check) = (Arc::clone(&gpu), *check);
+        let run = move || -> Result<(), Failed> {
+            check(gpu.as_ref().as_ref().ok_or("no adapter")?);
+            Ok(())
+        };
+        Trial::test(*name, run).with_ignored_flag(missing)
+    };
+    libtest_mimic::run(&arguments, CHECKS.iter().map(trial).collect()).exit();
+}

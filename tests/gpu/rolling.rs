@@ -1,0 +1,66 @@
+//! Whole scenes, each engine with its own critical step.
+
+use crate::rig::{Who, engine, note, scene};
+use hexroll::gpu::Gpu;
+use hexroll::model::Model;
+use hexroll::record::{Sample, Snapshot};
+use hexroll::run::{Observer, Progress};
+
+#[derive(Default)]
+struct Rows(Vec<Sample>);
+
+impl Observer for Rows {
+    fn sample(&mut self, sample: &Sample, _: &Progress) -> hexroll::Result<()> {
+        self.0.push(sample.clone());
+        Ok(())
+    }
+
+    fn snapshot(&mut self, _: &Snapshot, _: &str) -> hexroll::Result<()> {
+        Ok(())
+    }
+}
+
+/// Means of (Fx, Fz, My) over the last 30 ms.
+fn means(gpu: &Gpu, who: Who, stem: &str) -> [f64; 3] {
+    let scene = scene(stem, &[]);
+    let model = Model::new(&scene).unwrap();
+    let mut rows = Rows::default();
+    let begun = std::time::Instant::now();
+    let totals =
+        hexroll::run::run(&scene, &model, &mut *engine(gpu, who, &model, &scene), &mut rows).unwrap();
+    let tail = &rows.0[rows.0.len() - 30..];
+    let mean = |of: fn(&Sample) -> f64| tail.iter().map(of).sum::<f64>() / 30.0;
+    let means = [mean(|s| s.road_fx_N), mean(|s| s.road_fz_N), mean(|s| s.rim_my_Nm)];
+    note(|| {
+        format!(
+            "{stem} {who:?}: {means:?} in {} steps, {:?}, {} eigenvalue iterations, balance {:.1e} stored {:.1e} of {:.2e} J, gap {:.1e}",
+            totals.steps,
+            begun.elapsed(),
+            totals.lanczos_iterations,
+            totals.ledger.worst_balance,
+            totals.ledger.worst_stored_balance,
+            totals.ledger.largest_term,
+            totals.ledger.worst_gap
+        )
+    });
+    means
+}
+
+fn compare(gpu: &Gpu, stem: &str, engines: &[Who], tolerance: f64) {
+    let exact = means(gpu, Who::Cpu64, stem);
+    for &who in engines {
+        let got = means(gpu, who, stem);
+        for k in 0..3 {
+            let error = (got[k] / exact[k] - 1.0).abs();
+            assert!(error < tolerance, "{stem} {who:?}: {got:?} instead of {exact:?}");
+        }
+    }
+}
+
+pub fn viscous(gpu: &Gpu) {
+    compare(gpu, "lat100_straight_viscous", &[Who::Gpu, Who::Plus], 0.003);
+}
+
+pub fn elastic(gpu: &Gpu) {
+    compare(gpu, "lat100_straight", &[Who::Gpu], 0.01);
+}
