@@ -309,6 +309,14 @@ impl<S: Real> Engine for CpuEngine<S> {
         Ok(())
     }
 
+    fn set_state(&mut self, state: &State, rim: &Coordinates, rim_rate: &Coordinates) -> Result<()> {
+        let frame = self.frame;
+        self.x = state.x.iter().map(|x| vec3(std::array::from_fn(|d| x[d] - frame[d]))).collect();
+        self.rim.q = *rim;
+        self.follow();
+        self.set_velocity(&state.v, rim_rate)
+    }
+
     fn force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {
         let frame = self.frame;
         let mut x: Vec<Vec3<S>> = x.iter().map(|x| vec3(std::array::from_fn(|d| x[d] - frame[d]))).collect();
