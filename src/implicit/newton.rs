@@ -92,16 +92,18 @@ impl Newton {
         let inverted = |element| Failure::Inverted { element };
         let mut residual = problem.residual(inc, &at).map_err(inverted)?;
         let mut stiffness = vec![0.0; at.status.len()];
+        let mut rounding = 0.0;
         let mut log: Vec<Iteration> = Vec::new();
         for n in 0..=self.limits.iterations {
             let changes = if n == 0 { 0 } else { update(problem, inc, &mut at, &residual, &stiffness) };
             let violation = problem.violation(inc, &at, &residual, &stiffness);
-            let scale = self.scale.max(residual.internal_norm).max(f64::MIN_POSITIVE);
+            let scale = self.scale.max(residual.force_norm).max(f64::MIN_POSITIVE);
             let mut entry = Iteration { residual: violation / scale, changes, inner: 0, share: 0.0 };
+            let asked = (self.limits.tolerance * scale).max(rounding);
             let whole = log.last().is_some_and(|l| l.share == 1.0);
-            if whole && changes == 0 && violation <= self.limits.tolerance * scale {
+            if whole && changes == 0 && violation <= asked {
                 log.push(entry);
-                self.scale = self.scale.max(residual.internal_norm);
+                self.scale = self.scale.max(residual.force_norm);
                 return Ok(Converged { at, residual, log });
             }
             if n == self.limits.iterations {
@@ -113,11 +115,13 @@ impl Newton {
                 let d = self.matrix.diagonal(node as usize);
                 *c = (d[0][0] + d[1][1] + d[2][2]) / 3.0;
             }
+            rounding = self.rounding(&at);
             let correction = self.correct(problem, inc, &mut at, &residual, &stiffness, scale)?;
             entry.inner = correction.iterations;
+            // While the contact set changes residuals do not compare: any will do.
+            let most = if n == 0 || changes > 0 { f64::INFINITY } else { (2.0 * violation).max(asked) };
             (at, residual, entry.share) =
-                damped(problem, inc, &at, &correction, violation, n == 0 || changes > 0, &stiffness)
-                    .map_err(inverted)?;
+                damped(problem, inc, &at, &correction, most, &stiffness).map_err(inverted)?;
             log.push(entry);
         }
         let last = log.last().expect("at least one iteration");
@@ -127,6 +131,16 @@ impl Newton {
             asked: self.limits.tolerance,
             changes: last.changes,
         })
+    }
+
+    /// What rounding the positions does to the residual [N]: none can be asked to be smaller.
+    fn rounding(&self, at: &Iterate) -> f64 {
+        let one = |(n, x): (usize, &[f64; 3])| {
+            let d = self.matrix.diagonal(n);
+            let force = (d[0][0] + d[1][1] + d[2][2]) * f64::EPSILON;
+            force * force * (x[0] * x[0] + x[1] * x[1] + x[2] * x[2])
+        };
+        8.0 * at.x.iter().enumerate().map(one).sum::<f64>().sqrt()
     }
 
     fn correct(
@@ -165,19 +179,17 @@ fn update(
     changes
 }
 
-/// Applies as much of a correction as the body can take: halved while an element inverts, or while the residual
-/// grows although the contact set stands (`free`: it does not, and residuals do not compare).
+/// Applies as much of a correction as the body can take: halved while an element inverts, or while the residual is
+/// more than `most` [N].
 fn damped(
     problem: &Problem<'_>,
     inc: &Increment,
     at: &Iterate,
     correction: &Correction,
-    before: f64,
-    free: bool,
+    most: f64,
     stiffness: &[f64],
 ) -> Result<(Iterate, Residual, f64), usize> {
     const SMALLEST: f64 = 1.0 / 64.0;
-    const GROWTH: f64 = 2.0;
     let mut share = 1.0;
     loop {
         let trial = moved(problem, at, correction, share);
@@ -186,7 +198,7 @@ fn damped(
             Err(_) => {}
             Ok(residual) => {
                 let after = problem.violation(inc, &trial, &residual, stiffness);
-                if free || after <= GROWTH * before || share <= SMALLEST {
+                if after <= most || share <= SMALLEST {
                     return Ok((trial, residual, share));
                 }
             }

@@ -6,7 +6,7 @@ use super::matrix::{BlockMatrix, norm};
 use super::rim::RimNodes;
 use crate::model::Model;
 use crate::physics::rim::Coordinates;
-use crate::physics::tensor::Vec3;
+use crate::physics::tensor::{Vec3, dot, sub};
 
 /// A body with its boundary conditions.
 pub struct Problem<'a> {
@@ -73,8 +73,8 @@ pub struct Residual {
     pub r: Vec<Vec3<f64>>,
     /// Of the free rim components, in their order [N, N m].
     pub rim: Vec<f64>,
-    /// ||f_int|| [N].
-    pub internal_norm: f64,
+    /// The larger of ||f_int|| and the norm of the inertia forces [N]: what residuals are relative to.
+    pub force_norm: f64,
     pub viscous_power: f64,
 }
 
@@ -106,12 +106,18 @@ impl<'a> Problem<'a> {
             })
             .collect();
         let rim = inc.rim.free.iter().map(|&c| self.rim_residual(inc, at, c, &r)).collect();
-        let internal_norm = norm(&forces.internal);
+        let inertia: f64 = (0..at.x.len())
+            .map(|n| {
+                let d = sub(at.x[n], inc.inertia_base[n]);
+                inc.inertia[n] * inc.inertia[n] * dot(d, d)
+            })
+            .sum();
+        let force_norm = norm(&forces.internal).max(inertia.sqrt());
         Ok(Residual {
             v,
             r,
             rim,
-            internal_norm,
+            force_norm,
             internal: forces.internal,
             viscous_power: forces.viscous_power,
         })

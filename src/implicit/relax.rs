@@ -65,7 +65,8 @@ pub fn relax(
     scale: f64,
 ) -> Result<Correction, Failure> {
     let mut sweep = Sweep::new(settings, problem, inc, at, residual, matrix);
-    let asked = settings.tolerance * scale;
+    // At no load the force scale is what the rim's own displacement causes.
+    let asked = settings.tolerance * scale.max(sweep.residual_norm(residual));
     let mut left = f64::INFINITY;
     let mut taken = 0;
     while taken < settings.sweeps {
