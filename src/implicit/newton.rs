@@ -93,6 +93,8 @@ impl Newton {
         let mut residual = problem.residual(inc, &at).map_err(inverted)?;
         let mut stiffness = vec![0.0; at.status.len()];
         let mut rounding = 0.0;
+        // Iterations since the contact set last changed.
+        let mut standing = 0;
         let mut log: Vec<Iteration> = Vec::new();
         for n in 0..=self.limits.iterations {
             let changes = if n == 0 { 0 } else { update(problem, inc, &mut at, &residual, &stiffness) };
@@ -118,8 +120,14 @@ impl Newton {
             rounding = self.rounding(&at);
             let correction = self.correct(problem, inc, &mut at, &residual, &stiffness, scale)?;
             entry.inner = correction.iterations;
-            // While the contact set changes residuals do not compare: any will do.
-            let most = if n == 0 || changes > 0 { f64::INFINITY } else { (2.0 * violation).max(asked) };
+            // While the contact set changes residuals do not compare: any will do. Once it has stood for a while the
+            // residual must fall, or slip directions may swing for ever.
+            standing = if n == 0 || changes > 0 { 0 } else { standing + 1 };
+            let most = match standing {
+                0 => f64::INFINITY,
+                1..=3 => (2.0 * violation).max(asked),
+                _ => (0.95 * violation).max(asked),
+            };
             (at, residual, entry.share) =
                 damped(problem, inc, &at, &correction, most, &stiffness).map_err(inverted)?;
             log.push(entry);

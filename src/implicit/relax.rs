@@ -12,7 +12,7 @@ use super::problem::{Increment, Iterate, Problem, Residual};
 use super::system::Correction;
 use crate::physics::friction::{Friction, Sliding};
 use crate::physics::road::Road;
-use crate::physics::tensor::{Vec3, add, axpy, scale as scaled, sub};
+use crate::physics::tensor::{Vec3, add, axpy, sub};
 
 /// Settings of the relaxation.
 #[derive(Debug, Clone, Copy)]
@@ -279,7 +279,7 @@ impl NodeProblem<'_> {
 
     /// On the surface with T = -mu N s/|s|: a fixed point for the direction of the slip.
     fn slide(&self, surface: &Surface, stuck: Vec3<f64>) -> Option<(Vec3<f64>, Vec3<f64>, Status)> {
-        const ROUNDS: usize = 50;
+        const ROUNDS: usize = 200;
         let q = frame(surface.road.normal(self.x));
         let local = product(&product(&q, self.stiffness), &transposed(&q));
         // Unknown: slip beyond the stuck position (s1, s2) and N, with the forces' balance
@@ -303,19 +303,17 @@ impl NodeProblem<'_> {
             let change = (new[0] - s[0]).hypot(new[1] - s[1]);
             s = new;
             normal = k[0] * s[0] + k[1] * s[1] - b[0];
-            let length = s[0].hypot(s[1]);
-            if mu == 0.0 || (round > 0 && change <= 1e-13 * length) {
+            if mu == 0.0 || (round > 0 && change <= 1e-12 * s[0].hypot(s[1])) {
                 break;
             }
-            if length > 0.0 {
-                u = s;
-            }
+            // Back to the cone along -T + c s: the slip's own direction would swing where the slip is small.
+            u = [0, 1].map(|i| mu * normal.max(0.0) * u[i] + 0.5 * (a + d) * s[i]);
         }
         if normal.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
             return None;
         }
         let d = add(stuck, times(&transposed(&q), [0.0, s[0], s[1]]));
         let f = sub(times(self.stiffness, d), self.b);
-        Some((d, scaled(f, 1.0), Status::Slip))
+        Some((d, f, Status::Slip))
     }
 }

@@ -16,7 +16,9 @@ pub struct System {
     /// Whether the matrix is symmetric up to round-off.
     pub symmetric: bool,
     /// Frame of every touching node (columns): its unknowns are components in it.
-    columns: Vec<Option<Block>>,
+    pub columns: Vec<Option<Block>>,
+    /// What the matrix was assembled at: coarser meshes are assembled there too.
+    pub state: Linearised,
     /// Values of the fixed unknowns.
     known: Vec<Vec3<f64>>,
     border: Border,
@@ -32,6 +34,31 @@ struct Border {
     rows: Vec<Vec<Vec3<f64>>>,
     block: Vec<Vec<f64>>,
     rhs: Vec<f64>,
+}
+
+/// Where a tangent was taken. Per node.
+#[derive(Debug, Clone, Default)]
+pub struct Linearised {
+    pub x: Vec<Vec3<f64>>,
+    pub v: Vec<Vec3<f64>>,
+    /// dv/dx [1/s].
+    pub rate: Vec<f64>,
+    /// Effective inertia and damping over the mass [1/s2].
+    pub inertia: Vec<f64>,
+}
+
+impl Linearised {
+    /// The same at the nodes of a coarser mesh.
+    pub fn injected(&self, transfer: &super::multigrid::Transfer) -> Linearised {
+        let at = |n: usize| transfer.coincident(n);
+        let all = || 0..transfer.coarse_count();
+        Linearised {
+            x: all().map(|n| self.x[at(n)]).collect(),
+            v: all().map(|n| self.v[at(n)]).collect(),
+            rate: all().map(|n| self.rate[at(n)]).collect(),
+            inertia: all().map(|n| self.inertia[at(n)]).collect(),
+        }
+    }
 }
 
 /// A Newton correction.
@@ -84,9 +111,48 @@ impl System {
         let mut border = Border::new(problem, inc, at, residual, &matrix);
         shift_known(&matrix, &known, &mut rhs);
         border.shift_known(&known);
-        let mut system = System { matrix, rhs, fixed, symmetric, columns, known, border, q };
+        let inertia = |n: usize| inc.inertia[n] / problem.model.mass[n] + inc.damping * inc.rate[n];
+        let state = Linearised {
+            x: at.x.clone(),
+            v: residual.v.clone(),
+            rate: inc.rate.clone(),
+            inertia: (0..count).map(inertia).collect(),
+        };
+        let mut system = System { matrix, rhs, fixed, symmetric, columns, state, known, border, q };
         system.decouple();
         system
+    }
+
+    /// Equations of a coarser mesh: no right-hand side, some unknowns fixed in their nodes' frames.
+    pub fn plain(
+        mut matrix: BlockMatrix,
+        fixed: Vec<[bool; 3]>,
+        columns: Vec<Option<Block>>,
+        symmetric: bool,
+        state: Linearised,
+    ) -> System {
+        let law = |c: &Option<Block>| c.map(|columns| Equations::framed(columns));
+        transform(&mut matrix, &columns.iter().map(law).collect::<Vec<_>>());
+        let zero = vec![[0.0; 3]; fixed.len()];
+        let (known, border, q) = (zero.clone(), Border::default(), [0.0; 6]);
+        let mut system = System { matrix, rhs: zero, fixed, symmetric, columns, state, known, border, q };
+        system.decouple();
+        system
+    }
+
+    /// A node's unknowns as a vector in space.
+    pub fn to_space(&self, n: usize, y: Vec3<f64>) -> Vec3<f64> {
+        self.columns[n].map_or(y, |c| times(&c, y))
+    }
+
+    /// A vector in space as a node's unknowns.
+    pub fn to_frame(&self, n: usize, v: Vec3<f64>) -> Vec3<f64> {
+        self.columns[n].map_or(v, |c| times(&transposed(&c), v))
+    }
+
+    /// Zero where an unknown is fixed.
+    pub fn truncated(&self, n: usize, y: Vec3<f64>) -> Vec3<f64> {
+        std::array::from_fn(|i| if self.fixed[n][i] { 0.0 } else { y[i] })
     }
 
     /// Unit rows and zero columns for the fixed unknowns. The unit is a stiffness, so that norms mean something.

@@ -100,7 +100,7 @@ impl<'a> Run<'a> {
         let model: &'a Model = self.model;
         let problem = Problem::new(model, self.scene.gravity);
         let limits = Limits { tolerance: settings.tolerance, iterations: settings.iterations };
-        let inner = implicit::inner(&self.scene.body.mesh, model, settings.solver)?;
+        let inner = implicit::inner(self.scene, model, settings.solver)?;
         let newton = Newton::new(&problem, inner, limits);
         let (scheme, lengths) = match settings.scheme {
             ImplicitScheme::Static { increments } => {
