@@ -2,5 +2,7 @@
 
 mod fixtures;
 mod in_time;
+mod multigrid;
+mod runs;
 mod tangents;
 mod wheel_static;

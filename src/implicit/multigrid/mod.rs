@@ -170,12 +170,12 @@ impl Preconditioner for Multigrid {
             let (finer, rest) = self.levels.split_at_mut(d);
             let level = &mut rest[0];
             level.reassemble(finer.last().map_or(Some(system), |l| l.system.as_ref()).expect("prepared"));
+            let last = rest.len() == 1;
+            let level = &mut self.levels[d];
             let own = level.system.as_ref().expect("just reassembled");
-            if d + 1 == self.levels.len() {
+            if last {
                 self.coarsest.prepare(own)?;
             } else {
-                let level = &mut self.levels[d];
-                let own = level.system.as_ref().expect("just reassembled");
                 level.smoother.prepare(&level.model.mesh.hexes, &own.matrix)?;
             }
         }
