@@ -107,6 +107,20 @@ impl Books {
         works
     }
 
+    /// A window of one increment of `dt` in which everything stands as it does now: what a snapshot needs.
+    pub fn standing(&mut self, s: &Simulation<'_>, dt: f64, residual: f64) -> Window {
+        self.clear(s);
+        for (sum, &n) in self.window.surface.iter_mut().zip(&s.problem.model.mesh.surface) {
+            sum.impulse = scale(s.contact[n as usize], dt);
+        }
+        for (sum, status) in self.window.surface.iter_mut().zip(&s.status) {
+            sum.touching = u32::from(*status != Status::Free);
+            sum.sticking = u32::from(*status == Status::Stick);
+        }
+        self.window.steps = 1;
+        self.take(s, residual)
+    }
+
     /// Closes the window.
     pub fn take(&mut self, s: &Simulation<'_>, residual: f64) -> Window {
         let stored = s.problem.assembler.stored(&s.x);

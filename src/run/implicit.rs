@@ -105,7 +105,9 @@ impl<'a> Run<'a> {
         let (scheme, lengths) = match settings.scheme {
             ImplicitScheme::Static { increments } => {
                 let length = (end - start) / increments as f64;
-                (Scheme::Static, Increments::new(length, end - start))
+                // With friction the path matters, and so does how finely it is followed.
+                let most = if self.scene.friction.is_some() { length } else { end - start };
+                (Scheme::Static, Increments::new(length, most))
             }
             ImplicitScheme::Dynamic { step, damping } => {
                 (Scheme::Dynamic { delta: damping }, Increments::new(step, step))
@@ -164,7 +166,7 @@ impl<'a> Run<'a> {
                     return Ok(false);
                 }
                 // The last converged state is the last row; its fields are kept too.
-                let window = on.books.take(&on.simulation, on.residual);
+                let window = on.books.standing(&on.simulation, length, on.residual);
                 self.dt_before = length;
                 self.hand_over(on)?;
                 self.snapshots(stage, &window, true)?;

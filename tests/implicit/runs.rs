@@ -86,32 +86,32 @@ fn the_explicit_engine_stays_in_the_equilibrium() {
     println!("kinetic over strain energy {worst:.1e}");
     assert!(worst < 1e-6, "{worst}");
     let pressed = kept.samples.iter().rfind(|s| s.stage == "press").unwrap().road_fz_N;
-    for s in stays {
+    // The first window begins with half a step of the leapfrog: its impulse lacks half a step in about 80.
+    for s in &stays[1..] {
         assert!((s.road_fz_N / pressed - 1.0).abs() < 1e-3, "{} {pressed}", s.road_fz_N);
     }
 }
 
 #[test]
 fn a_torque_free_wheel_turns_as_it_is_dragged() {
-    // Statics along a path: 1 mm forwards under 2.2 mm of press turns the free spin by about 1 mm / 38.9 mm.
+    // Statics along a path: pressed over 2 mm of 5 mm forwards; the free spin follows the road.
     let scene = load(
-        "lat100_straight_from_implicit",
+        "lat100_static_implicit",
         &[
-            "stage.1.method=implicit",
-            "stage.1.implicit={ scheme = \"static\", increments = 10 }",
-            "stage.1.duration=10 ms",
-            "stage.1.rim.x={ displacement = \"1 mm\", ramp = \"10 ms\" }",
-            "stage.1.rim.spin={ moment = \"0 N m\", inertia = \"1e-5 kg m2\" }",
+            "stage.0.rim.z={ displacement = \"-2.2 mm\", ramp = \"10 ms\" }",
+            "stage.0.rim.x={ displacement = \"5 mm\", ramp = \"20 ms\" }",
+            "stage.0.rim.spin={ moment = \"0 N m\", inertia = \"1e-5 kg m2\" }",
+            "stage.0.implicit.increments=20",
         ],
     );
-    let text: String = std::fs::read_to_string(&scene.file).unwrap();
-    assert!(text.contains("initial_velocity"), "the override below would be idle");
     let (totals, kept) = run(&scene);
-    totals.unwrap();
+    println!("{:?}", totals.unwrap().implicit);
     let last = kept.samples.last().unwrap();
-    println!("{:.5} rad, My {:.1e} N m", last.rim_angle_rad, last.rim_my_Nm);
-    assert!((last.rim_angle_rad * 0.0389 / 1e-3 - 1.0).abs() < 0.05, "{}", last.rim_angle_rad);
-    assert!(last.rim_my_Nm.abs() < 1e-6);
+    println!("{:.5} rad, My {:.1e} N m, Fx {:.2e}", last.rim_angle_rad, last.rim_my_Nm, last.road_fx_N);
+    // The radius of free rolling of the paper's wheel is 38.9 mm (another program, by dynamics); the first
+    // millimetres, half pressed, are nearer to 39 mm.
+    assert!((last.rim_angle_rad * 0.0389 / 5e-3 - 1.0).abs() < 0.03, "{}", last.rim_angle_rad);
+    assert!(last.rim_my_Nm.abs() < 1e-5);
 }
 
 #[test]
