@@ -88,7 +88,8 @@ impl Books {
         };
         let internal = mean(self.internal[n], s.internal[n]);
         let gravity = scale(s.problem.gravity, mass);
-        let mut works = Works { internal: -dot(internal, way), body_force: dot(gravity, way), ..Works::default() };
+        let mut works =
+            Works { internal: -dot(internal, way), body_force: dot(gravity, way), ..Works::default() };
         if s.problem.on_rim[n] {
             let inertia = if s.scheme == Scheme::Static { 0.0 } else { mass / dt };
             let net = scale(sub(s.v[n], self.v[n]), inertia);
@@ -129,8 +130,7 @@ impl Books {
         for (sum, &n) in window.surface.iter_mut().zip(&s.problem.model.mesh.surface) {
             (sum.x, sum.v) = (s.x[n as usize], s.v[n as usize]);
         }
-        window.kinetic =
-            s.v.iter().zip(&s.problem.model.mass).map(|(v, m)| 0.5 * m * dot(*v, *v)).sum();
+        window.kinetic = s.v.iter().zip(&s.problem.model.mass).map(|(v, m)| 0.5 * m * dot(*v, *v)).sum();
         // Velocities belong to the moment itself: no half step to pair.
         window.probe = Probe {
             mixed_kinetic: window.kinetic,

@@ -138,7 +138,9 @@ impl Local {
     /// How far the node is from its law [N]: zero where gap, slip and force obey it exactly.
     pub fn violation(&self, status: Status) -> Vec3<f64> {
         match status {
-            Status::Free => times(&transposed(&self.frame), [self.normal, self.tangential[0], self.tangential[1]]),
+            Status::Free => {
+                times(&transposed(&self.frame), [self.normal, self.tangential[0], self.tangential[1]])
+            }
             Status::Stick => [self.c * self.gap, self.c * self.slip[0], self.c * self.slip[1]],
             Status::Slip => {
                 let (d, f) = (self.direction(), self.mu * self.normal.max(0.0));

@@ -9,8 +9,8 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Side};
 
 enum Factors {
-    Cholesky(Llt<usize, f64>),
-    Lu(Lu<usize, f64>),
+    Cholesky(Box<Llt<usize, f64>>),
+    Lu(Box<Lu<usize, f64>>),
 }
 
 /// Factors of the last matrix.
@@ -20,6 +20,7 @@ pub struct Direct {
     /// Number of every unknown that is not fixed.
     numbers: Vec<[Option<usize>; 3]>,
     unknowns: usize,
+    /// Of the matrix handed over: the library does not say what its factors hold.
     bytes: usize,
 }
 
@@ -29,11 +30,13 @@ impl LinearSolver for Direct {
         self.number(system);
         let matrix = self.sparse(system)?;
         self.bytes = matrix.compute_nnz() * 16;
-        if system.symmetric && let Ok(llt) = matrix.sp_cholesky(Side::Lower) {
-            self.factors = Some(Factors::Cholesky(llt));
+        if system.symmetric
+            && let Ok(llt) = matrix.sp_cholesky(Side::Lower)
+        {
+            self.factors = Some(Factors::Cholesky(Box::new(llt)));
             return Some(());
         }
-        self.factors = Some(Factors::Lu(matrix.sp_lu().ok()?));
+        self.factors = Some(Factors::Lu(Box::new(matrix.sp_lu().ok()?)));
         Some(())
     }
 

@@ -147,13 +147,10 @@ impl Arnoldi {
         most: usize,
     ) -> Arnoldi {
         let beta = norm(r);
-        let scaled = |v: &[Vec3<f64>], s: f64| -> Vec<Vec3<f64>> { v.iter().map(|v| v.map(|c| c * s)).collect() };
-        let mut cycle = Arnoldi {
-            basis: vec![scaled(r, 1.0 / beta)],
-            triangle: Vec::new(),
-            rhs: vec![beta],
-            steps: 0,
-        };
+        let scaled =
+            |v: &[Vec3<f64>], s: f64| -> Vec<Vec3<f64>> { v.iter().map(|v| v.map(|c| c * s)).collect() };
+        let mut cycle =
+            Arnoldi { basis: vec![scaled(r, 1.0 / beta)], triangle: Vec::new(), rhs: vec![beta], steps: 0 };
         let mut turns: Vec<(f64, f64)> = Vec::new();
         let mut z = vec![[0.0; 3]; r.len()];
         while cycle.steps < most && cycle.rhs[cycle.steps].abs() > target {

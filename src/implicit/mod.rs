@@ -1,6 +1,8 @@
 //! The implicit scheme (paper section 3.2, eqs. 15-25, fig. 2): Newton's method with consistent tangents, contact
 //! without multipliers or parameters, static or in time.
 
+#![allow(clippy::needless_range_loop)] // one index for several arrays reads best
+
 pub mod assembly;
 pub mod booking;
 pub mod contact;

@@ -50,11 +50,15 @@ pub struct Converged {
 pub enum Failure {
     #[error("element {element} inverts on the way")]
     Inverted { element: usize },
-    #[error("no convergence in {iterations} iterations: relative residual {residual:.1e} (asked: {asked:.1e}), {changes} contact states still changing")]
+    #[error(
+        "no convergence in {iterations} iterations: relative residual {residual:.1e} (asked: {asked:.1e}), {changes} contact states still changing"
+    )]
     TooMany { iterations: usize, residual: f64, asked: f64, changes: usize },
     #[error("the linear equations have no solution: the body can move freely, or is at a limit point")]
     Singular,
-    #[error("the relaxation did not converge in {sweeps} sweeps: residual {residual:.1e} N (asked: {asked:.1e} N)")]
+    #[error(
+        "the relaxation did not converge in {sweeps} sweeps: residual {residual:.1e} N (asked: {asked:.1e} N)"
+    )]
     Relaxation { sweeps: usize, residual: f64, asked: f64 },
 }
 
@@ -165,7 +169,9 @@ impl Newton {
                 let system = System::new(problem, inc, at, residual, stiffness, self.matrix.clone());
                 system.solve(&mut **solver).ok_or(Failure::Singular)
             }
-            Inner::Relaxation(settings) => relax::relax(settings, problem, inc, at, residual, &self.matrix, scale),
+            Inner::Relaxation(settings) => {
+                relax::relax(settings, problem, inc, at, residual, &self.matrix, scale)
+            }
         }
     }
 }

@@ -113,14 +113,7 @@ impl<'a> Problem<'a> {
             })
             .sum();
         let force_norm = norm(&forces.internal).max(inertia.sqrt());
-        Ok(Residual {
-            v,
-            r,
-            rim,
-            force_norm,
-            internal: forces.internal,
-            viscous_power: forces.viscous_power,
-        })
+        Ok(Residual { v, r, rim, force_norm, internal: forces.internal, viscous_power: forces.viscous_power })
     }
 
     fn rim_residual(&self, inc: &Increment, at: &Iterate, c: usize, r: &[Vec3<f64>]) -> f64 {
@@ -146,7 +139,14 @@ impl<'a> Problem<'a> {
     }
 
     /// Surface node k at an iterate. `stiffness`: of every surface node [N/m].
-    pub fn local(&self, inc: &Increment, at: &Iterate, r: &[Vec3<f64>], k: usize, stiffness: &[f64]) -> Local {
+    pub fn local(
+        &self,
+        inc: &Increment,
+        at: &Iterate,
+        r: &[Vec3<f64>],
+        k: usize,
+        stiffness: &[f64],
+    ) -> Local {
         let n = self.model.mesh.surface[k] as usize;
         let surface = inc.surface.expect("statuses exist only with a road");
         surface.local(inc.start[n], at.x[n], r[n], stiffness[k])

@@ -114,9 +114,8 @@ impl<'a> Sweep<'a> {
         inc.rim.free.iter().for_each(|&c| q[c] = at.q[c]);
         let mut placed = at.x.clone();
         problem.rim.place(&q, &mut placed);
-        let d = (0..count)
-            .map(|n| if problem.on_rim[n] { sub(placed[n], at.x[n]) } else { [0.0; 3] })
-            .collect();
+        let d =
+            (0..count).map(|n| if problem.on_rim[n] { sub(placed[n], at.x[n]) } else { [0.0; 3] }).collect();
         Sweep {
             inverses: (0..count).map(|i| inverse(matrix.diagonal(i))).collect(),
             rim: RimBlock::new(problem, inc, at, residual, matrix),
@@ -208,7 +207,13 @@ impl<'a> Sweep<'a> {
 }
 
 impl RimBlock {
-    fn new(problem: &Problem<'_>, inc: &Increment, at: &Iterate, residual: &Residual, k: &BlockMatrix) -> Self {
+    fn new(
+        problem: &Problem<'_>,
+        inc: &Increment,
+        at: &Iterate,
+        residual: &Residual,
+        k: &BlockMatrix,
+    ) -> Self {
         let free = &inc.rim.free;
         let directions: Vec<_> = free.iter().map(|&c| problem.rim.direction(&at.q, c)).collect();
         let diagonal = free
@@ -294,12 +299,15 @@ impl NodeProblem<'_> {
             u = if l > 0.0 { u.map(|c| c / l) } else { [0.0; 2] };
             // (A + mu u k^T) s = b_t + mu u b_n, with N = k . s - b_n
             let k = [local[0][1], local[0][2]];
-            let sliding = Sliding { normal_force: f64::max(normal, 0.0), slip_speed: s[0].hypot(s[1]) / surface.dt };
+            let sliding =
+                Sliding { normal_force: f64::max(normal, 0.0), slip_speed: s[0].hypot(s[1]) / surface.dt };
             let mu = surface.friction.map_or(0.0, |law| law.coefficient(sliding));
-            let m = [[a + mu * u[0] * k[0], c + mu * u[0] * k[1]], [c + mu * u[1] * k[0], d + mu * u[1] * k[1]]];
+            let m =
+                [[a + mu * u[0] * k[0], c + mu * u[0] * k[1]], [c + mu * u[1] * k[0], d + mu * u[1] * k[1]]];
             let rhs = [b[1] + mu * u[0] * b[0], b[2] + mu * u[1] * b[0]];
             let det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-            let new = [(rhs[0] * m[1][1] - rhs[1] * m[0][1]) / det, (m[0][0] * rhs[1] - m[1][0] * rhs[0]) / det];
+            let new =
+                [(rhs[0] * m[1][1] - rhs[1] * m[0][1]) / det, (m[0][0] * rhs[1] - m[1][0] * rhs[0]) / det];
             let change = (new[0] - s[0]).hypot(new[1] - s[1]);
             s = new;
             normal = k[0] * s[0] + k[1] * s[1] - b[0];

@@ -20,8 +20,7 @@ impl RimNodes {
     pub fn new(model: &Model) -> RimNodes {
         let mesh = &model.mesh;
         let axle = DVec3::from(mesh.axle);
-        let arms: Vec<DVec3> =
-            mesh.rim.iter().map(|&n| DVec3::from(mesh.nodes[n as usize]) - axle).collect();
+        let arms: Vec<DVec3> = mesh.rim.iter().map(|&n| DVec3::from(mesh.nodes[n as usize]) - axle).collect();
         let masses = || mesh.rim.iter().map(|&n| model.mass[n as usize]);
         let inertia = masses().zip(&arms).map(|(m, a)| m * (a.x * a.x + a.z * a.z)).sum();
         RimNodes { nodes: mesh.rim.clone(), arms, mass: masses().sum(), inertia }

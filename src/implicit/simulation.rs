@@ -73,12 +73,19 @@ impl<'a> Simulation<'a> {
         rim: [Coordinates; 2],
     ) -> Simulation<'a> {
         let nodes = state.x.len();
-        let touched = if surface.is_some_and(|s| s.friction.is_some()) { Status::Stick } else { Status::Slip };
+        let touched =
+            if surface.is_some_and(|s| s.friction.is_some()) { Status::Stick } else { Status::Slip };
         let status = match &surface {
             None => Vec::new(),
             Some(s) => {
                 let at = |&n: &u32| s.road.gap(state.x[n as usize]) <= s.touch;
-                problem.model.mesh.surface.iter().map(|n| if at(n) { touched } else { Status::Free }).collect()
+                problem
+                    .model
+                    .mesh
+                    .surface
+                    .iter()
+                    .map(|n| if at(n) { touched } else { Status::Free })
+                    .collect()
             }
         };
         Simulation {
@@ -187,7 +194,8 @@ impl<'a> Simulation<'a> {
         for (k, &n) in self.problem.model.mesh.surface.iter().enumerate() {
             let n = n as usize;
             let (x, normal) = (self.x[n], surface.road.normal(self.x[n]));
-            let sinking = (dt * dot(self.v[n], normal)).min(0.0) + (0.5 * dt * dt * dot(self.a[n], normal)).min(0.0);
+            let sinking =
+                (dt * dot(self.v[n], normal)).min(0.0) + (0.5 * dt * dt * dot(self.a[n], normal)).min(0.0);
             euler[n] = self.status[k] != Status::Free || surface.road.gap(x) + sinking <= surface.touch;
         }
         euler
@@ -216,13 +224,8 @@ impl<'a> Simulation<'a> {
 
     fn rim_increment(&self, target: &Target) -> RimIncrement {
         let free: Vec<usize> = (0..6).filter(|&c| target.free[c].is_some()).collect();
-        let mut rim = RimIncrement {
-            target: target.rim,
-            free,
-            load: target.load,
-            inertia: [0.0; 6],
-            base: self.q,
-        };
+        let mut rim =
+            RimIncrement { target: target.rim, free, load: target.load, inertia: [0.0; 6], base: self.q };
         let Scheme::Dynamic { delta } = self.scheme else { return rim };
         let [gamma, beta] = newmark(delta);
         let dt = target.dt;

@@ -87,7 +87,8 @@ impl System {
         let mut known = at.x.clone();
         problem.rim.place(&q, &mut known);
         for n in 0..count {
-            known[n] = std::array::from_fn(|i| if problem.on_rim[n] { known[n][i] - at.x[n][i] } else { 0.0 });
+            known[n] =
+                std::array::from_fn(|i| if problem.on_rim[n] { known[n][i] - at.x[n][i] } else { 0.0 });
         }
         let mut rhs: Vec<Vec3<f64>> = residual.r.iter().map(|r| r.map(|c| -c)).collect();
         let mut fixed: Vec<[bool; 3]> = problem.on_rim.iter().map(|&on| [on; 3]).collect();
@@ -131,7 +132,7 @@ impl System {
         symmetric: bool,
         state: Linearised,
     ) -> System {
-        let law = |c: &Option<Block>| c.map(|columns| Equations::framed(columns));
+        let law = |c: &Option<Block>| c.map(Equations::framed);
         transform(&mut matrix, &columns.iter().map(law).collect::<Vec<_>>());
         let zero = vec![[0.0; 3]; fixed.len()];
         let (known, border, q) = (zero.clone(), Border::default(), [0.0; 6]);

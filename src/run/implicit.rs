@@ -1,8 +1,8 @@
 //! Implicit stages in the run loop: increments instead of windows of steps, the same samples and snapshots, and the
 //! state handed to the engine for the stage that comes.
 
-use super::{Progress, Run};
 use super::ledger::WindowEnd;
+use super::{Progress, Run};
 use crate::engine::{State, Window};
 use crate::error::{Error, Result};
 use crate::implicit::booking::Books;
@@ -84,7 +84,11 @@ impl<'a> Run<'a> {
         let settled = self.motion.settled_after();
         match settings.scheme {
             ImplicitScheme::Static { .. } if !road_moves && !stage.rim.drives().iter().any(moves) => {
-                if settled > start { settled.min(start + stage.duration) } else { start + stage.duration }
+                if settled > start {
+                    settled.min(start + stage.duration)
+                } else {
+                    start + stage.duration
+                }
             }
             _ => start + stage.duration,
         }
@@ -176,13 +180,7 @@ impl<'a> Run<'a> {
     }
 
     /// Closes a window: the engine gets the state, the history its row.
-    fn close(
-        &mut self,
-        stage: &Stage,
-        on: &mut Progressing<'_>,
-        time: f64,
-        length: f64,
-    ) -> Result<Window> {
+    fn close(&mut self, stage: &Stage, on: &mut Progressing<'_>, time: f64, length: f64) -> Result<Window> {
         let window = on.books.take(&on.simulation, on.residual);
         self.hand_over(on)?;
         // Snapshots divide impulses by steps times this.

@@ -8,8 +8,8 @@ mod motion;
 pub mod stability;
 
 pub use fields::contact_areas;
-pub use ledger::Ledger;
 pub use implicit::ImplicitCounts;
+pub use ledger::Ledger;
 pub use motion::Motion;
 
 use crate::engine::{Engine, Window};

@@ -60,10 +60,7 @@ pub fn simulation_with(
 ) -> Simulation<'_> {
     let problem = Problem::new(model, [0.0; 3]);
     let newton = Newton::new(&problem, inner, limits);
-    let state = hexroll::engine::State {
-        x: model.mesh.nodes.clone(),
-        v: vec![[0.0; 3]; model.node_count()],
-    };
+    let state = hexroll::engine::State { x: model.mesh.nodes.clone(), v: vec![[0.0; 3]; model.node_count()] };
     let [x, y, z] = model.mesh.axle;
     Simulation::new(problem, newton, scheme, surface, state, [[x, y, z, 0.0, 0.0, 0.0], [0.0; 6]])
 }

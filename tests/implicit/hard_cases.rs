@@ -52,7 +52,8 @@ fn down(by: f64) -> impl Fn(f64) -> [f64; 6] {
 
 #[test]
 fn nearly_incompressible_rubber() {
-    let mesh = MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements: [44, 4, 5] };
+    let mesh =
+        MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements: [44, 4, 5] };
     let law = Law::NeoHookean { g0: 2640e6, g1: 2.64e6 };
     let model = model(&body(mesh, law, Element::Q1p0), Some(NodeSet::Inner));
     let mut s = solver(&model, 1.0);
@@ -99,7 +100,10 @@ fn a_load_that_is_reversed_leaves_nothing_behind() {
     assert_eq!(forces[3], 0.0);
     // Friction is a memory only while there is contact.
     for (x, start) in s.x.iter().zip(&model.mesh.nodes) {
-        assert!((0..2).all(|i| (x[i] - start[i]).abs() < 1e-9) && (x[2] - start[2] - 0.5e-3).abs() < 1e-9, "{x:?} {start:?}");
+        assert!(
+            (0..2).all(|i| (x[i] - start[i]).abs() < 1e-9) && (x[2] - start[2] - 0.5e-3).abs() < 1e-9,
+            "{x:?} {start:?}"
+        );
     }
 }
 

@@ -29,9 +29,10 @@ fn vibrating(model: &Model, speed: f64, delta: f64) -> Simulation<'_> {
 }
 
 fn energy(s: &Simulation<'_>) -> f64 {
-    let kinetic = s.v.iter().zip(&s.problem.model.mass).map(|(v, m)| {
-        0.5 * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
-    });
+    let kinetic =
+        s.v.iter()
+            .zip(&s.problem.model.mass)
+            .map(|(v, m)| 0.5 * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
     kinetic.sum::<f64>() + s.problem.assembler.stored(&s.x).strain
 }
 
@@ -95,9 +96,16 @@ fn a_pressed_and_released_block_does_not_ring() {
     for n in 1..=150 {
         // Pressed by 1 mm over 10 ms, held for 10 ms, lifted over 10 ms.
         let t = n as f64 * dt;
-        let down = if t < 0.01 { t / 0.01 } else if t < 0.02 { 1.0 } else { ((0.03 - t) / 0.01).max(0.0) };
+        let down = if t < 0.01 {
+            t / 0.01
+        } else if t < 0.02 {
+            1.0
+        } else {
+            ((0.03 - t) / 0.01).max(0.0)
+        };
         let down = down * down * (3.0 - 2.0 * down);
-        s.step(&held(&model, t, dt, [0.0, 0.0, -1e-3 * down, 0.0, 0.0, 0.0])).unwrap_or_else(|e| panic!("step {n}: {e}"));
+        s.step(&held(&model, t, dt, [0.0, 0.0, -1e-3 * down, 0.0, 0.0, 0.0]))
+            .unwrap_or_else(|e| panic!("step {n}: {e}"));
         let (f, touching) = road_force(&s);
         forces.push(f[2]);
         assert!(f[2] >= 0.0);
@@ -107,7 +115,11 @@ fn a_pressed_and_released_block_does_not_ring() {
     let mean = held.iter().sum::<f64>() / held.len() as f64;
     let scatter = (held.iter().map(|f| (f - mean).powi(2)).sum::<f64>() / held.len() as f64).sqrt() / mean;
     let jumps = held.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max) / mean;
-    println!("held at {mean:.1} N, scatter {:.2} %, largest step to step {:.2} %", 100.0 * scatter, 100.0 * jumps);
+    println!(
+        "held at {mean:.1} N, scatter {:.2} %, largest step to step {:.2} %",
+        100.0 * scatter,
+        100.0 * jumps
+    );
     // What remains is the block's own vibration; a ringing contact swings by its whole force from step to step.
     assert!(scatter < 0.05 && jumps < 0.05, "{held:?}");
 }

@@ -15,10 +15,8 @@ use std::time::Instant;
 fn scene(fineness: usize, kappa: f64) -> Scene {
     let [c, r, w] = [44 * fineness, 4 * fineness, 5 * fineness];
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/lat100_static_implicit.toml");
-    let sets = [
-        format!("body.mesh.elements=[{c}, {r}, {w}]"),
-        format!("body.material.bulk_modulus={kappa} MPa"),
-    ];
+    let sets =
+        [format!("body.mesh.elements=[{c}, {r}, {w}]"), format!("body.material.bulk_modulus={kappa} MPa")];
     Scene::load(file.as_ref(), &sets).unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -45,8 +43,7 @@ fn pressed(model: &Model, mu: f64) -> System {
     let inc = s.increment(&target);
     let at = Iterate { x: s.x.clone(), q: s.q, status: s.status.clone() };
     let residual = s.problem.residual(&inc, &at).unwrap();
-    let mut matrix =
-        hexroll::implicit::matrix::BlockMatrix::of_mesh(model.node_count(), &model.mesh.hexes);
+    let mut matrix = hexroll::implicit::matrix::BlockMatrix::of_mesh(model.node_count(), &model.mesh.hexes);
     s.problem.tangent(&inc, &at, &residual.v, &mut matrix);
     let stiffness = vec![1e5; s.status.len()];
     System::new(&s.problem, &inc, &at, &residual, &stiffness, matrix)

@@ -50,8 +50,14 @@ fn the_static_scene_finds_2_2_mm_in_ten_quick_increments() {
     kept.notes.iter().for_each(|n| println!("{n}"));
     let last = kept.samples.last().unwrap();
     println!("{:?}", totals.implicit);
-    println!("{:.4} mm, {} N, balances {:.1e} {:.1e} J of {:.2e} J", 39.0 - 1e3 * last.axle_z_m, last.road_fz_N,
-        last.balance_error_J, last.stored_balance_error_J, last.strain_J);
+    println!(
+        "{:.4} mm, {} N, balances {:.1e} {:.1e} J of {:.2e} J",
+        39.0 - 1e3 * last.axle_z_m,
+        last.road_fz_N,
+        last.balance_error_J,
+        last.stored_balance_error_J,
+        last.strain_J
+    );
     assert!(((0.039 - last.axle_z_m) / 2.2e-3 - 1.0).abs() < 0.005);
     assert!((last.road_fz_N - 300.0).abs() < 1e-4 && (last.rim_fz_N + 300.0).abs() < 1e-4);
     assert!(kept.samples.len() <= 10 && kept.samples.len() == totals.implicit.increments);
@@ -158,7 +164,11 @@ fn a_bouncing_block_agrees_with_the_explicit_engine() {
     let impulse = |kept: &Kept| kept.samples.iter().map(|s| s.road_fz_N).sum::<f64>() * 20e-6;
     let touching = |kept: &Kept| kept.samples.iter().filter(|s| s.road_fz_N > 0.0).count();
     let [a, b] = [&by_explicit, &by_implicit].map(impulse);
-    println!("impulse {a:.5} {b:.5} N s, contact {} {} windows", touching(&by_explicit), touching(&by_implicit));
+    println!(
+        "impulse {a:.5} {b:.5} N s, contact {} {} windows",
+        touching(&by_explicit),
+        touching(&by_implicit)
+    );
     // The block arrives with 1 m/s and leaves with nearly as much: twice its momentum. Both schemes lose the momentum
     // of landing nodes, in steps of different length.
     assert!((b / a - 1.0).abs() < 0.02, "{a} {b}");

@@ -6,8 +6,7 @@ use hexroll::implicit::assembly::Assembler;
 use hexroll::implicit::matrix::BlockMatrix;
 use hexroll::scene::{Element, Law, MeshSpec};
 
-const ELEMENTS: [Element; 3] =
-    [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
+const ELEMENTS: [Element; 3] = [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
 const LAWS: [Law; 3] = [
     Law::NeoHookean { g0: 65.1e6, g1: 2.64e6 },
     Law::MooneyRivlin { g0: 65.1e6, g1: 2.0e6, g2: 0.64e6 },
@@ -29,7 +28,8 @@ fn sum(a: &[[f64; 3]], b: &[[f64; 3]], s: f64) -> Vec<[f64; 3]> {
 
 #[test]
 fn the_tangent_is_the_derivative_of_the_force() {
-    let mesh = MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements: [8, 2, 2] };
+    let mesh =
+        MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements: [8, 2, 2] };
     for element in ELEMENTS {
         for law in LAWS {
             for viscosity in [None, Some(20.0)] {

@@ -53,7 +53,8 @@ fn newton_converges_quadratically_once_the_contact_set_stands() {
 
 #[test]
 fn contact_forces_agree_node_by_node_with_another_program() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/wheel_static/wheel_static_880_q1p0_mu1_300N.csv");
+    let file =
+        concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/wheel_static/wheel_static_880_q1p0_mu1_300N.csv");
     let mut reader = csv::Reader::from_path(file).unwrap();
     // Undeformed position relative to the axle [mm] and force [N].
     let rows: Vec<([f64; 3], [f64; 3])> = reader
@@ -132,7 +133,9 @@ fn every_contact_force_obeys_its_law() {
             Status::Free => assert!(x[2] > 0.0 && f == [0.0; 3]),
             Status::Stick => assert!(x[2].abs() < 1e-15 && f[2] > 0.0 && tangential <= bound * (1.0 + 1e-9)),
             // The residual of the increment: 1e-10 of the internal forces' norm, about 3 kN.
-            Status::Slip => assert!(x[2].abs() < 1e-15 && (tangential - bound).abs() < 1e-6, "{tangential} {bound}"),
+            Status::Slip => {
+                assert!(x[2].abs() < 1e-15 && (tangential - bound).abs() < 1e-6, "{tangential} {bound}")
+            }
         }
     }
 }

@@ -54,9 +54,7 @@ fn halved(spec: &MeshSpec) -> Option<MeshSpec> {
             let elements = half(elements, 8)?;
             Some(MeshSpec::Ring { outer_radius, inner_radius, width, elements })
         }
-        MeshSpec::Block { size, elements } => {
-            Some(MeshSpec::Block { size, elements: half(elements, 1)? })
-        }
+        MeshSpec::Block { size, elements } => Some(MeshSpec::Block { size, elements: half(elements, 1)? }),
     }
 }
 
@@ -81,7 +79,11 @@ impl Multigrid {
         let coarsest = levels.last().map_or(model.node_count(), |l| l.model.node_count());
         if levels.is_empty() || coarsest > COARSEST {
             return Err(Error::Unsupported {
-                what: format!("multigrid on {:?}, which can be halved {} times", scene.body.mesh, levels.len()),
+                what: format!(
+                    "multigrid on {:?}, which can be halved {} times",
+                    scene.body.mesh,
+                    levels.len()
+                ),
                 instead: "use numbers of elements that are small numbers times powers of two, or \
                           linear = \"block-jacobi\""
                     .into(),

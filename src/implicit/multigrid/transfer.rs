@@ -105,7 +105,12 @@ impl Transfer {
     }
 
     /// Fine unknowns from coarse ones, nothing where a fine unknown is fixed.
-    pub fn prolong(&self, coarse: &[Vec3<f64>], fine_system: &System, coarse_system: &System) -> Vec<Vec3<f64>> {
+    pub fn prolong(
+        &self,
+        coarse: &[Vec3<f64>],
+        fine_system: &System,
+        coarse_system: &System,
+    ) -> Vec<Vec3<f64>> {
         let space: Vec<Vec3<f64>> = (0..coarse.len()).map(|n| coarse_system.to_space(n, coarse[n])).collect();
         (0..self.start.len() - 1)
             .into_par_iter()
@@ -121,7 +126,12 @@ impl Transfer {
     }
 
     /// The transpose of [`Transfer::prolong`].
-    pub fn restrict(&self, fine: &[Vec3<f64>], fine_system: &System, coarse_system: &System) -> Vec<Vec3<f64>> {
+    pub fn restrict(
+        &self,
+        fine: &[Vec3<f64>],
+        fine_system: &System,
+        coarse_system: &System,
+    ) -> Vec<Vec3<f64>> {
         let space: Vec<Vec3<f64>> = (0..fine.len())
             .into_par_iter()
             .map(|n| fine_system.to_space(n, fine_system.truncated(n, fine[n])))
@@ -144,7 +154,7 @@ impl Transfer {
 
 fn push_shares(coarse: &Grid, at: [usize; 3], shares: &mut Vec<Share>) {
     let sides = |c: usize| -> Vec<(usize, i8)> {
-        if c % 2 == 0 { vec![(c / 2, 0)] } else { vec![(c / 2, 1), (c / 2 + 1, -1)] }
+        if c.is_multiple_of(2) { vec![(c / 2, 0)] } else { vec![(c / 2, 1), (c / 2 + 1, -1)] }
     };
     let [i, j, k] = at.map(sides);
     let weight = 1.0 / (i.len() * j.len() * k.len()) as f64;
@@ -183,7 +193,8 @@ mod tests {
 
     #[test]
     fn coarse_nodes_stand_on_fine_ones_and_neighbours_around() {
-        let ring = |elements| MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements };
+        let ring =
+            |elements| MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements };
         let block = |elements| MeshSpec::Block { size: [1.0, 2.0, 3.0], elements };
         for (fine, coarse) in [(ring([16, 4, 2]), ring([8, 2, 1])), (block([4, 2, 6]), block([2, 1, 3]))] {
             let [f, c] = [&fine, &coarse].map(|s| Mesh::generate(s, [0.0; 3], None));

@@ -66,7 +66,9 @@ fn method(stage: &Table) -> Result<(Method, f64)> {
         ));
     }
     if let Some(item) = implicit.as_ref().filter(|_| name != Name::Implicit) {
-        return Err(item.error("this stage is not implicit", "remove the key, or write method = \"implicit\""));
+        return Err(
+            item.error("this stage is not implicit", "remove the key, or write method = \"implicit\"")
+        );
     }
     match name {
         Name::Explicit => Ok((Method::Explicit, alpha)),
