@@ -163,6 +163,9 @@ pub trait Engine {
     fn state(&mut self) -> Result<State>;
     /// Sets every velocity, and the rates of free rim components.
     fn set_velocity(&mut self, v: &[[f64; 3]], rim_rate: &Coordinates) -> Result<()>;
+    /// Puts everything where another solver has taken it: positions, velocities, rim coordinates and the rates of the
+    /// free ones.
+    fn set_state(&mut self, state: &State, rim: &Coordinates, rim_rate: &Coordinates) -> Result<()>;
     /// Internal force [N] at any positions and velocities, by the engine's own force pass; the state is not touched.
     fn force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>>;
 }

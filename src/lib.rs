@@ -9,6 +9,7 @@ pub mod cpu;
 pub mod engine;
 pub mod error;
 pub mod gpu;
+pub mod implicit;
 pub mod model;
 pub mod output;
 pub mod physics;

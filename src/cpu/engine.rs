@@ -445,6 +445,14 @@ where
         Ok(())
     }
 
+    fn set_state(&mut self, state: &State, rim: &Coordinates, rim_rate: &Coordinates) -> Result<()> {
+        let frame = self.frame;
+        self.x = Field::new(state.x.iter().map(|&x| sub64(x, frame)));
+        self.rim.q = *rim;
+        self.follow();
+        self.set_velocity(&state.v, rim_rate)
+    }
+
     fn force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {
         let frame = self.frame;
         let mut x = Field::<T>::new(x.iter().map(|&x| sub64(x, frame)));

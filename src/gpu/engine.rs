@@ -633,6 +633,20 @@ impl Engine for GpuEngine {
         self.gpu.check()
     }
 
+    fn set_state(&mut self, state: &State, rim: &Coordinates, rim_rate: &Coordinates) -> Result<()> {
+        let (hi, lo) = split(&state.x, self.frame);
+        let write = |name, data: &[[f32; 4]]| {
+            self.gpu.queue.write_buffer(self.buffers.get(name), 0, bytemuck::cast_slice(data));
+        };
+        write("positions", &hi);
+        if self.choice.plus {
+            write("positions_lo", &lo);
+        }
+        self.rim.q = *rim;
+        self.follow()?;
+        self.set_velocity(&state.v, rim_rate)
+    }
+
     fn force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {
         let (hi, lo) = split(x, self.frame);
         let v: Vec<[f32; 4]> = v.iter().map(|&v| vec4(v)).collect();

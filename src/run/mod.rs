@@ -1,12 +1,14 @@
 //! The loop over an [`Engine`]: stages, windows, steps; histories, fields and the critical step on the way.
 
 mod fields;
+mod implicit;
 mod lanczos;
 mod ledger;
 mod motion;
 pub mod stability;
 
 pub use fields::contact_areas;
+pub use implicit::ImplicitCounts;
 pub use ledger::Ledger;
 pub use motion::Motion;
 
@@ -38,6 +40,10 @@ pub trait Observer {
     fn sample(&mut self, sample: &Sample, progress: &Progress) -> Result<()>;
     /// Whole fields, as often as the scene asks.
     fn snapshot(&mut self, snapshot: &Snapshot, stage: &str) -> Result<()>;
+    /// A line for the log: iterations of an implicit increment, and the like.
+    fn note(&mut self, _line: &str) -> Result<()> {
+        Ok(())
+    }
     /// Asked after every window: end here, keeping everything.
     fn interrupted(&self) -> bool {
         false
@@ -57,6 +63,8 @@ pub struct Totals {
     pub element_bound: f64,
     /// Eigenvalue iterations spent on it (two force passes each).
     pub lanczos_iterations: usize,
+    /// Of implicit stages: increments, cuts, Newton iterations, iterations or sweeps of the inner solver.
+    pub implicit: ImplicitCounts,
     pub ledger: Ledger,
     /// Whether an observer ended it.
     pub interrupted: bool,
@@ -179,6 +187,9 @@ impl<'a> Run<'a> {
             Snapshots::Every(interval) => start + interval,
             _ => f64::INFINITY,
         };
+        if let Method::Implicit(settings) = stage.method {
+            return self.implicit_stage(stage, &settings);
+        }
         // Whole windows, the last one cut at the end of the stage.
         let end = start + stage.duration;
         let sample = self.scene.output.sample;
@@ -201,7 +212,7 @@ impl<'a> Run<'a> {
             }
         }
         match stage.method {
-            Method::Explicit => Ok(()),
+            Method::Explicit | Method::Implicit(_) => Ok(()),
             Method::QuasiStatic { kinetic_ratio, residual } => Err(Error::NotSettled {
                 stage: stage.name.clone(),
                 detail: format!(

@@ -168,6 +168,50 @@ pub enum Method {
     /// Mass-damped relaxation that ends when kinetic/strain energy and relative residual force are small,
     /// not before all ramps are over; not reaching them within the duration is an error.
     QuasiStatic { kinetic_ratio: f64, residual: f64 },
+    /// Newton's method with consistent tangents (eqs. 15-25).
+    Implicit(Implicit),
+}
+
+/// How an implicit stage is solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Implicit {
+    pub scheme: ImplicitScheme,
+    /// Residual at which Newton's method stops, over the largest internal force so far (eq. 23).
+    pub tolerance: f64,
+    /// Most Newton iterations of an increment; more: the increment is cut.
+    pub iterations: usize,
+    pub solver: ImplicitSolver,
+}
+
+/// Statics or dynamics of an implicit stage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ImplicitScheme {
+    /// Equilibria along the path of the loads; `increments`: over the stage's ramps, before any is cut or grown.
+    Static { increments: usize },
+    /// Newmark with steps of `step` [s]; `damping` = gamma - 1/2 >= 0 (numerical).
+    Dynamic { step: f64, damping: f64 },
+}
+
+/// What solves the linearised contact problem of an implicit stage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ImplicitSolver {
+    /// Semi-smooth Newton.
+    ActiveSet(Linear),
+    /// The paper's projected relaxation (eq. 24): omega, epsilon_GS relative to the force scale (eq. 25), and the most
+    /// sweeps.
+    Relaxation { omega: f64, tolerance: f64, sweeps: usize },
+}
+
+/// Solvers of linear equations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Linear {
+    /// Direct for small meshes, multigrid for large ones that can be coarsened.
+    Auto,
+    Direct,
+    /// Krylov iteration with a multigrid cycle.
+    Multigrid,
+    /// Krylov iteration with the 3x3 diagonal blocks.
+    BlockJacobi,
 }
 
 /// Velocities set at the start of a stage.

@@ -453,7 +453,6 @@ fn what_comes_later_is_called_unavailable_not_unknown() {
         ("road.roughness=1 mm", "road.roughness", "smooth"),
         ("friction.law=stribeck", "friction.law: \"stribeck\"", "\"coulomb\""),
         ("body.mesh.generator=import", "body.mesh.generator: \"import\"", "\"ring\" or \"block\""),
-        ("stage.0.method=implicit", "stage.0.method: \"implicit\"", "\"quasi-static\""),
         ("stage.1.friction.coefficient=0.5", "stage.1.friction", "the same in every stage"),
         ("sweep.mu=[0.1, 0.2]", "sweep", "--set"),
         ("checkpoint.every=1 s", "checkpoint", "in one piece"),

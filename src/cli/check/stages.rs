@@ -6,7 +6,8 @@ use super::Piece;
 use crate::cli::estimate::Steps;
 use crate::cli::format::si;
 use crate::scene::{
-    Drive, Field, Friction, InitialVelocity, Method, Picture, RimMotion, Road, Scene, Snapshots, Stage,
+    Drive, Field, Friction, ImplicitScheme, InitialVelocity, Method, Picture, RimMotion, Road, Scene,
+    Snapshots, Stage,
 };
 
 /// A stage as it will run.
@@ -34,6 +35,14 @@ pub fn plans(scene: &Scene, steps: &Steps) -> Vec<StagePlan> {
                     "quasi-static, until kinetic/strain energy <= {kinetic_ratio:e} and residual <= {residual:e}"
                 )
             }
+            Method::Implicit(implicit) => match implicit.scheme {
+                ImplicitScheme::Static { increments } => {
+                    format!("implicit, static, {increments} increments or more")
+                }
+                ImplicitScheme::Dynamic { step, damping } => {
+                    format!("implicit, Newmark with steps of {step:e} s, numerical damping {damping}")
+                }
+            },
         },
         duration_s: stage.duration,
         steps_at_most,

@@ -57,12 +57,25 @@
 //!
 //! [[stage]]                           # one or more, one after the other
 //! name = "press"                      # default "stage 1", ...
-//! method = "quasi-static"             # mass-damped relaxation | "explicit"
+//! method = "quasi-static"             # mass-damped relaxation | "explicit" | "implicit"
 //! duration = "0.2 s"                  # > 0; the longest a quasi-static stage may take
 //! mass_damping = "3000 1/s"           # Rayleigh alpha >= 0; default 0: none; needed by "quasi-static"
 //! initial_velocity = "rim"            # optional: every node starts with the rim's rigid motion | "zero"
 //! settle = { kinetic_ratio = 1e-8, residual = 1e-4 }   # defaults; only "quasi-static": kinetic over strain
 //!                                     # energy, and out-of-balance force over the largest force
+//!
+//! [stage.implicit]                    # needed by method = "implicit"
+//! scheme = "static"                   # equilibria along the ramps, a history row an increment | "dynamic"
+//! increments = 10                     # default; over the ramps, before any is cut or grown; only "static"
+//! step = "0.25 ms"                    # Newmark's step; only "dynamic", needed there
+//! damping = 0.05                      # default 0; gamma - 1/2 of the modified average acceleration; only "dynamic"
+//! tolerance = 1e-8                    # default; residual over internal force (eq. 23)
+//! iterations = 25                     # default; Newton iterations after which an increment is cut
+//! solver = "active-set"               # default: semi-smooth Newton | "relaxation": the paper's projected sweeps
+//! linear = "auto"                     # default | "direct" | "multigrid" | "block-jacobi"; only "active-set"
+//! omega = 1.0                         # default, 0..2; only "relaxation"
+//! relaxation_tolerance = 1e-9         # default; residual over internal force (eq. 25); only "relaxation"
+//! sweeps = 100000                     # default; the most of one relaxation; only "relaxation"
 //!
 //! [stage.rim]                         # needs [rim]; a component that is not named holds where it is
 //! x = { displacement = "1 mm", ramp = "20 ms" }   # from the start of the simulation; smooth ramp
@@ -81,6 +94,7 @@
 //! ```
 
 mod body;
+mod implicit;
 mod output;
 mod rim_motion;
 mod stage;

@@ -5,17 +5,16 @@ use crate::scene::reader::{Bound, Item, Later, Table};
 use crate::scene::units::{RATE, TIME};
 use crate::scene::{InitialVelocity, Method, Stage};
 
+use super::implicit;
 use super::rim_motion::{Limits, rim_motion};
 
-const KEYS: [&str; 7] = ["name", "method", "duration", "mass_damping", "initial_velocity", "settle", "rim"];
+const KEYS: [&str; 8] =
+    ["name", "method", "duration", "mass_damping", "initial_velocity", "settle", "implicit", "rim"];
 
 const LATER: [Later; 2] = [
     ("friction", "friction is the same in every stage: set it in [friction]"),
     ("checkpoint", "run the scene in one piece"),
 ];
-
-const LATER_METHODS: [Later; 1] =
-    [("implicit", "use method = \"quasi-static\" (with mass_damping) or \"explicit\"")];
 
 /// Every stage in order; where the rim has been displaced to is followed across them.
 pub(super) fn stages(item: &Item, has_rim: bool) -> Result<Vec<Stage>> {
@@ -33,7 +32,7 @@ fn stage(item: &Item, index: usize, has_rim: bool, place: &mut [Option<f64>; 6])
     let name = table.get("name").map_or(Ok(format!("stage {}", index + 1)), |n| n.text().map(Into::into))?;
     let duration = table.quantity("duration", &TIME, Bound::Positive)?;
     let (method, mass_damping) = method(&table)?;
-    let limits = Limits { quasi_static: method != Method::Explicit, duration };
+    let limits = Limits { quasi_static: matches!(method, Method::QuasiStatic { .. }), duration };
     Ok(Stage {
         name,
         method,
@@ -44,21 +43,41 @@ fn stage(item: &Item, index: usize, has_rim: bool, place: &mut [Option<f64>; 6])
     })
 }
 
+/// Names of the methods.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Name {
+    Explicit,
+    QuasiStatic,
+    Implicit,
+}
+
 /// Method with its criteria, and the mass damping.
 fn method(stage: &Table) -> Result<(Method, f64)> {
-    let names = [("explicit", false), ("quasi-static", true)];
-    let quasi_static = stage.need("method", "\"explicit\"")?.choice(&names, &LATER_METHODS)?;
+    let names =
+        [("explicit", Name::Explicit), ("quasi-static", Name::QuasiStatic), ("implicit", Name::Implicit)];
+    let name = stage.need("method", "\"explicit\"")?.choice(&names, &[])?;
     let alpha = stage.quantity_or("mass_damping", 0.0, &RATE, Bound::NotNegative)?;
-    let settle = stage.get("settle");
-    if !quasi_static {
-        return match settle {
-            Some(item) => Err(item.error(
-                "an explicit stage lasts its whole duration",
-                "remove the key, or write method = \"quasi-static\"",
-            )),
-            None => Ok((Method::Explicit, alpha)),
-        };
+    let (settle, implicit) = (stage.get("settle"), stage.get("implicit"));
+    if let Some(item) = settle.as_ref().filter(|_| name != Name::QuasiStatic) {
+        let what = if name == Name::Explicit { "an explicit" } else { "an implicit" };
+        return Err(item.error(
+            format!("{what} stage lasts its whole duration"),
+            "remove the key, or write method = \"quasi-static\"",
+        ));
     }
+    if let Some(item) = implicit.as_ref().filter(|_| name != Name::Implicit) {
+        return Err(
+            item.error("this stage is not implicit", "remove the key, or write method = \"implicit\"")
+        );
+    }
+    match name {
+        Name::Explicit => Ok((Method::Explicit, alpha)),
+        Name::Implicit => Ok((Method::Implicit(implicit::implicit(stage)?), alpha)),
+        Name::QuasiStatic => quasi_static(stage, settle, alpha),
+    }
+}
+
+fn quasi_static(stage: &Table, settle: Option<Item>, alpha: f64) -> Result<(Method, f64)> {
     if alpha == 0.0 {
         // About twice the lowest angular frequency settles fastest.
         let example = "\"3000 1/s\"";

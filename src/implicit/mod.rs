@@ -1,0 +1,59 @@
+//! The implicit scheme (paper section 3.2, eqs. 15-25, fig. 2): Newton's method with consistent tangents, contact
+//! without multipliers or parameters, static or in time.
+
+#![allow(clippy::needless_range_loop)] // one index for several arrays reads best
+
+pub mod assembly;
+pub mod booking;
+pub mod contact;
+pub mod direct;
+pub mod dual;
+pub mod element;
+pub mod increments;
+pub mod krylov;
+pub mod matrix;
+pub mod multigrid;
+pub mod newton;
+pub mod problem;
+pub mod relax;
+pub mod rim;
+pub mod simulation;
+pub mod system;
+
+pub use newton::{Failure, Inner, Iteration, Limits, Newton};
+pub use simulation::{Scheme, Simulation, Target};
+
+use crate::error::Result;
+use crate::model::Model;
+use crate::scene::{ImplicitSolver, Linear, Scene};
+
+/// Nodes up to which a direct solution is the faster one.
+const DIRECT_NODES: usize = 6_000;
+/// Residual of the linear systems, relative: below what Newton's method is asked for, so that it stays quadratic.
+const LINEAR: f64 = 1e-9;
+
+/// What a scene's choice of solver amounts to on its mesh.
+///
+/// # Errors
+/// [`crate::Error::Unsupported`] where the mesh cannot be coarsened and multigrid is asked for.
+pub fn inner(scene: &Scene, model: &Model, choice: ImplicitSolver) -> Result<Inner> {
+    let linear = match choice {
+        ImplicitSolver::Relaxation { omega, tolerance, sweeps } => {
+            return Ok(Inner::Relaxation(relax::Relaxation { omega, tolerance, sweeps }));
+        }
+        ImplicitSolver::ActiveSet(linear) => linear,
+    };
+    let small = model.node_count() <= DIRECT_NODES;
+    Ok(Inner::ActiveSet(match linear {
+        Linear::Direct => Box::new(direct::Direct::default()),
+        Linear::Auto if small => Box::new(direct::Direct::default()),
+        Linear::BlockJacobi => {
+            let preconditioner = krylov::BlockJacobi::default();
+            Box::new(krylov::Krylov { preconditioner, tolerance: LINEAR, most: 20_000 })
+        }
+        Linear::Auto | Linear::Multigrid => {
+            let preconditioner = multigrid::Multigrid::new(scene, model)?;
+            Box::new(krylov::Krylov { preconditioner, tolerance: LINEAR, most: 500 })
+        }
+    }))
+}

@@ -1,0 +1,233 @@
+//! Newton-Raphson on an increment (eqs. 19-23) with the contact set followed along: a semi-smooth Newton method, or
+//! the paper's projected relaxation inside it.
+
+use super::contact::Status;
+use super::krylov::LinearSolver;
+use super::matrix::BlockMatrix;
+use super::problem::{Increment, Iterate, Problem, Residual};
+use super::relax::{self, Relaxation};
+use super::system::{Correction, System};
+
+/// What solves the linearised equations with their contact conditions.
+pub enum Inner {
+    /// Active set: contact laws linearised into the matrix.
+    ActiveSet(Box<dyn LinearSolver>),
+    /// Relaxation over node blocks with the contact laws imposed node by node.
+    Relaxation(Relaxation),
+}
+
+/// When Newton's method is done, and when it gives up.
+#[derive(Debug, Clone, Copy)]
+pub struct Limits {
+    /// epsilon_NR of eq. 23: residual over the largest ||f_int|| so far.
+    pub tolerance: f64,
+    pub iterations: usize,
+}
+
+/// An iteration in the log.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Iteration {
+    /// Residual before the correction, relative to the force scale.
+    pub residual: f64,
+    /// Contact states that changed.
+    pub changes: usize,
+    /// Iterations or sweeps of the inner solver.
+    pub inner: usize,
+    /// Share of the correction that was applied.
+    pub share: f64,
+}
+
+/// A converged increment.
+pub struct Converged {
+    pub at: Iterate,
+    pub residual: Residual,
+    /// One entry an iteration, the last one without a correction.
+    pub log: Vec<Iteration>,
+}
+
+/// Why an increment did not converge.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Failure {
+    #[error("element {element} inverts on the way")]
+    Inverted { element: usize },
+    #[error(
+        "no convergence in {iterations} iterations: relative residual {residual:.1e} (asked: {asked:.1e}), {changes} contact states still changing"
+    )]
+    TooMany { iterations: usize, residual: f64, asked: f64, changes: usize },
+    #[error("the linear equations have no solution: the body can move freely, or is at a limit point")]
+    Singular,
+    #[error(
+        "the relaxation did not converge in {sweeps} sweeps: residual {residual:.1e} N (asked: {asked:.1e} N)"
+    )]
+    Relaxation { sweeps: usize, residual: f64, asked: f64 },
+}
+
+/// Newton's method with what it keeps between increments.
+pub struct Newton {
+    pub inner: Inner,
+    pub limits: Limits,
+    /// Largest ||f_int|| of a converged state so far [N].
+    pub scale: f64,
+    matrix: BlockMatrix,
+}
+
+impl Newton {
+    pub fn new(problem: &Problem<'_>, inner: Inner, limits: Limits) -> Newton {
+        let matrix = BlockMatrix::of_mesh(problem.model.node_count(), &problem.model.mesh.hexes);
+        Newton { inner, limits, scale: 0.0, matrix }
+    }
+
+    /// Bytes of the matrix and the inner solver.
+    pub fn bytes(&self) -> usize {
+        let inner = match &self.inner {
+            Inner::ActiveSet(solver) => solver.bytes(),
+            Inner::Relaxation(_) => 0,
+        };
+        self.matrix.bytes() + inner
+    }
+
+    /// Solves an increment from `at`, the state at its start.
+    pub fn solve(
+        &mut self,
+        problem: &Problem<'_>,
+        inc: &Increment,
+        mut at: Iterate,
+    ) -> Result<Converged, Failure> {
+        let inverted = |element| Failure::Inverted { element };
+        let mut residual = problem.residual(inc, &at).map_err(inverted)?;
+        let mut stiffness = vec![0.0; at.status.len()];
+        let mut rounding = 0.0;
+        // Iterations since the contact set last changed.
+        let mut standing = 0;
+        let mut log: Vec<Iteration> = Vec::new();
+        for n in 0..=self.limits.iterations {
+            let changes = if n == 0 { 0 } else { update(problem, inc, &mut at, &residual, &stiffness) };
+            let violation = problem.violation(inc, &at, &residual, &stiffness);
+            let scale = self.scale.max(residual.force_norm).max(f64::MIN_POSITIVE);
+            let mut entry = Iteration { residual: violation / scale, changes, inner: 0, share: 0.0 };
+            let asked = (self.limits.tolerance * scale).max(rounding);
+            let whole = log.last().is_some_and(|l| l.share == 1.0);
+            if whole && changes == 0 && violation <= asked {
+                log.push(entry);
+                self.scale = self.scale.max(residual.force_norm);
+                return Ok(Converged { at, residual, log });
+            }
+            if n == self.limits.iterations {
+                log.push(entry);
+                break;
+            }
+            problem.tangent(inc, &at, &residual.v, &mut self.matrix);
+            for (c, &node) in stiffness.iter_mut().zip(&problem.model.mesh.surface) {
+                let d = self.matrix.diagonal(node as usize);
+                *c = (d[0][0] + d[1][1] + d[2][2]) / 3.0;
+            }
+            rounding = self.rounding(&at);
+            let correction = self.correct(problem, inc, &mut at, &residual, &stiffness, scale)?;
+            entry.inner = correction.iterations;
+            // While the contact set changes residuals do not compare: any will do. Once it has stood for a while the
+            // residual must fall, or slip directions may swing for ever.
+            standing = if n == 0 || changes > 0 { 0 } else { standing + 1 };
+            let most = match standing {
+                0 => f64::INFINITY,
+                1..=3 => (2.0 * violation).max(asked),
+                _ => (0.95 * violation).max(asked),
+            };
+            (at, residual, entry.share) =
+                damped(problem, inc, &at, &correction, most, &stiffness).map_err(inverted)?;
+            log.push(entry);
+        }
+        let last = log.last().expect("at least one iteration");
+        Err(Failure::TooMany {
+            iterations: self.limits.iterations,
+            residual: last.residual,
+            asked: self.limits.tolerance,
+            changes: last.changes,
+        })
+    }
+
+    /// What rounding the positions does to the residual [N]: none can be asked to be smaller.
+    fn rounding(&self, at: &Iterate) -> f64 {
+        let one = |(n, x): (usize, &[f64; 3])| {
+            let d = self.matrix.diagonal(n);
+            let force = (d[0][0] + d[1][1] + d[2][2]) * f64::EPSILON;
+            force * force * (x[0] * x[0] + x[1] * x[1] + x[2] * x[2])
+        };
+        8.0 * at.x.iter().enumerate().map(one).sum::<f64>().sqrt()
+    }
+
+    fn correct(
+        &mut self,
+        problem: &Problem<'_>,
+        inc: &Increment,
+        at: &mut Iterate,
+        residual: &Residual,
+        stiffness: &[f64],
+        scale: f64,
+    ) -> Result<Correction, Failure> {
+        match &mut self.inner {
+            Inner::ActiveSet(solver) => {
+                let system = System::new(problem, inc, at, residual, stiffness, self.matrix.clone());
+                system.solve(&mut **solver).ok_or(Failure::Singular)
+            }
+            Inner::Relaxation(settings) => {
+                relax::relax(settings, problem, inc, at, residual, &self.matrix, scale)
+            }
+        }
+    }
+}
+
+/// Contact states that follow from an iterate; how many changed.
+fn update(
+    problem: &Problem<'_>,
+    inc: &Increment,
+    at: &mut Iterate,
+    residual: &Residual,
+    stiffness: &[f64],
+) -> usize {
+    let Some(surface) = &inc.surface else { return 0 };
+    let new: Vec<Status> = (0..at.status.len())
+        .map(|k| surface.update(at.status[k], &problem.local(inc, at, &residual.r, k, stiffness)))
+        .collect();
+    let changes = new.iter().zip(&at.status).filter(|(a, b)| a != b).count();
+    at.status = new;
+    changes
+}
+
+/// Applies as much of a correction as the body can take: halved while an element inverts, or while the residual is
+/// more than `most` [N].
+fn damped(
+    problem: &Problem<'_>,
+    inc: &Increment,
+    at: &Iterate,
+    correction: &Correction,
+    most: f64,
+    stiffness: &[f64],
+) -> Result<(Iterate, Residual, f64), usize> {
+    const SMALLEST: f64 = 1.0 / 64.0;
+    let mut share = 1.0;
+    loop {
+        let trial = moved(problem, at, correction, share);
+        match problem.residual(inc, &trial) {
+            Err(element) if share <= SMALLEST => return Err(element),
+            Err(_) => {}
+            Ok(residual) => {
+                let after = problem.violation(inc, &trial, &residual, stiffness);
+                if after <= most || share <= SMALLEST {
+                    return Ok((trial, residual, share));
+                }
+            }
+        }
+        share *= 0.5;
+    }
+}
+
+fn moved(problem: &Problem<'_>, at: &Iterate, correction: &Correction, share: f64) -> Iterate {
+    let mut x = at.x.clone();
+    super::matrix::axpy(&mut x, share, &correction.dx);
+    let q = std::array::from_fn(|c| {
+        // Exactly the target at the full share.
+        if share == 1.0 { correction.q[c] } else { at.q[c] + share * (correction.q[c] - at.q[c]) }
+    });
+    problem.rim.place(&q, &mut x);
+    Iterate { x, q, status: at.status.clone() }
+}

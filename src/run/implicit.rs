@@ -1,0 +1,233 @@
+//! Implicit stages in the run loop: increments instead of windows of steps, the same samples and snapshots, and the
+//! state handed to the engine for the stage that comes.
+
+use super::ledger::WindowEnd;
+use super::{Progress, Run};
+use crate::engine::{State, Window};
+use crate::error::{Error, Result};
+use crate::implicit::booking::Books;
+use crate::implicit::contact::Surface;
+use crate::implicit::increments::Increments;
+use crate::implicit::problem::Problem;
+use crate::implicit::{self, Failure, Iteration, Limits, Newton, Scheme, Simulation, Target};
+use crate::model::Model;
+use crate::physics::friction::Coulomb;
+use crate::physics::road::Plane;
+use crate::scene::{Drive, Friction, Implicit, ImplicitScheme, Road, Stage};
+
+/// What implicit stages cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ImplicitCounts {
+    pub increments: usize,
+    pub cuts: usize,
+    pub newton: usize,
+    /// Iterations of the linear solver, or sweeps of the relaxation.
+    pub inner: usize,
+}
+
+/// An implicit stage on its way.
+struct Progressing<'m> {
+    simulation: Simulation<'m>,
+    books: Books,
+    lengths: Increments,
+    /// Residual of the last increment [N].
+    residual: f64,
+}
+
+impl<'a> Run<'a> {
+    /// Runs an implicit stage. A static one gives a row an increment, whose forces are those at its end, and ends when
+    /// every ramp is over, unless something keeps moving.
+    pub(super) fn implicit_stage(&mut self, stage: &Stage, settings: &Implicit) -> Result<()> {
+        let start = self.totals.time;
+        let end = self.implicit_end(stage, settings, start);
+        let sample = match settings.scheme {
+            // Every increment is a window.
+            ImplicitScheme::Static { .. } => 0.0,
+            ImplicitScheme::Dynamic { .. } => self.scene.output.sample,
+        };
+        let mut on = self.begin_implicit(stage, settings, start, end)?;
+        let mut window_start = start;
+        let mut windows = 1;
+        while self.totals.time < end {
+            let window_end = if sample > 0.0 { end.min(start + windows as f64 * sample) } else { end };
+            let left = window_end - self.totals.time;
+            // The last sliver of a window is round-off.
+            let length = if left < 1e-9 * (end - start) { left } else { on.lengths.next(left) };
+            let whole = length == left;
+            let time = if whole { window_end } else { self.totals.time + length };
+            if !self.increment(stage, &mut on, time, length)? {
+                continue;
+            }
+            if sample > 0.0 && !whole {
+                continue;
+            }
+            windows += 1;
+            let window = self.close(stage, &mut on, time, time - window_start)?;
+            window_start = time;
+            self.snapshots(stage, &window, time == end)?;
+            if self.observer.interrupted() {
+                self.totals.interrupted = true;
+                break;
+            }
+        }
+        // The explicit engine starts from velocities at this moment.
+        self.dt_before = 0.0;
+        (self.refresh_at, self.refresh_interval) = (self.totals.steps, 0);
+        Ok(())
+    }
+
+    /// When the stage ends: with the ramps of a static one, if nothing moves on.
+    fn implicit_end(&self, stage: &Stage, settings: &Implicit, start: f64) -> f64 {
+        let moves = |d: &Drive| matches!(d, Drive::Velocity { to, .. } if *to != 0.0);
+        let road_moves = self.scene.friction.is_some()
+            && self.scene.road.is_some_and(|Road::Plane { velocity, .. }| velocity != [0.0; 3]);
+        let settled = self.motion.settled_after();
+        match settings.scheme {
+            ImplicitScheme::Static { .. } if !road_moves && !stage.rim.drives().iter().any(moves) => {
+                if settled > start {
+                    settled.min(start + stage.duration)
+                } else {
+                    start + stage.duration
+                }
+            }
+            _ => start + stage.duration,
+        }
+    }
+
+    fn begin_implicit(
+        &mut self,
+        stage: &Stage,
+        settings: &Implicit,
+        start: f64,
+        end: f64,
+    ) -> Result<Progressing<'a>> {
+        let model: &'a Model = self.model;
+        let problem = Problem::new(model, self.scene.gravity);
+        let limits = Limits { tolerance: settings.tolerance, iterations: settings.iterations };
+        let inner = implicit::inner(self.scene, model, settings.solver)?;
+        let newton = Newton::new(&problem, inner, limits);
+        let (scheme, lengths) = match settings.scheme {
+            ImplicitScheme::Static { increments } => {
+                let length = (end - start) / increments as f64;
+                // With friction the path matters, and so does how finely it is followed.
+                let most = if self.scene.friction.is_some() { length } else { end - start };
+                (Scheme::Static, Increments::new(length, most))
+            }
+            ImplicitScheme::Dynamic { step, damping } => {
+                (Scheme::Dynamic { delta: damping }, Increments::new(step, step))
+            }
+        };
+        let mut state = self.engine.state()?;
+        if scheme == Scheme::Static {
+            state.v.fill([0.0; 3]);
+            self.rim_rate = [0.0; 6];
+            self.totals.ledger.velocities_set(0.0);
+        }
+        let surface = surface(self.scene.road.as_ref(), self.scene.friction, model);
+        let rim = [self.rim, self.rim_rate];
+        let mut simulation = Simulation::new(problem, newton, scheme, surface, state, rim);
+        let target = self.target(stage, start, 0.0);
+        simulation.start(&target).map_err(|f| failed(stage, start, &f))?;
+        Ok(Progressing { books: Books::new(&simulation), simulation, lengths, residual: 0.0 })
+    }
+
+    fn target(&self, stage: &Stage, time: f64, dt: f64) -> Target {
+        Target {
+            time,
+            dt,
+            rim: self.motion.coordinates_at(time),
+            load: self.motion.load_at(time),
+            free: self.motion.setup(0.0).free,
+            damping: stage.mass_damping,
+        }
+    }
+
+    /// Tries an increment; `false`: it was cut.
+    fn increment(&mut self, stage: &Stage, on: &mut Progressing<'_>, time: f64, length: f64) -> Result<bool> {
+        let target = self.target(stage, time, length);
+        match on.simulation.step(&target) {
+            Ok(log) => {
+                let newton = log.len() - 1;
+                on.lengths.converged(length, newton);
+                on.books.book(&on.simulation, length, stage.mass_damping);
+                on.residual = log.last().map_or(0.0, |l| l.residual) * on.simulation.newton.scale;
+                self.totals.time = time;
+                self.totals.steps += 1;
+                self.totals.dt_min = self.totals.dt_min.min(length);
+                self.totals.dt_max = self.totals.dt_max.max(length);
+                let counts = &mut self.totals.implicit;
+                counts.increments += 1;
+                counts.newton += newton;
+                counts.inner += log.iter().map(|l| l.inner).sum::<usize>();
+                self.observer.note(&line(stage, time, length, &log))?;
+                Ok(true)
+            }
+            Err(failure) => {
+                self.totals.implicit.cuts += 1;
+                let cut = on.lengths.failed(length);
+                self.observer.note(&format!("{}: increment to t = {time:.6e} s: {failure}", stage.name))?;
+                if cut {
+                    return Ok(false);
+                }
+                // The last converged state is the last row; its fields are kept too.
+                let window = on.books.standing(&on.simulation, length, on.residual);
+                self.dt_before = length;
+                self.hand_over(on)?;
+                self.snapshots(stage, &window, true)?;
+                Err(failed(stage, self.totals.time, &failure))
+            }
+        }
+    }
+
+    /// Closes a window: the engine gets the state, the history its row.
+    fn close(&mut self, stage: &Stage, on: &mut Progressing<'_>, time: f64, length: f64) -> Result<Window> {
+        let window = on.books.take(&on.simulation, on.residual);
+        self.hand_over(on)?;
+        self.dt_before = length / window.steps as f64;
+        self.force_time = length;
+        let at = WindowEnd { time, length, dt: self.dt_before, stage: stage.name.clone() };
+        let row = self.totals.ledger.row(self.model, self.scene.road.as_ref(), &at, &window);
+        let totals = &self.totals;
+        let progress = Progress { stage: &stage.name, time, end: self.end, steps: totals.steps, totals };
+        self.observer.sample(&row, &progress)?;
+        Ok(window)
+    }
+
+    fn hand_over(&mut self, on: &Progressing<'_>) -> Result<()> {
+        let s = &on.simulation;
+        (self.rim, self.rim_rate) = (s.q, s.q_rate);
+        self.engine.set_state(&State { x: s.x.clone(), v: s.v.clone() }, &s.q, &s.q_rate)
+    }
+}
+
+fn surface(road: Option<&Road>, friction: Option<Friction>, model: &Model) -> Option<Surface> {
+    let Road::Plane { point, normal, velocity } = *road?;
+    let reach = model.mesh.nodes.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
+    Some(Surface {
+        road: Plane::new(point, normal, velocity, [0.0; 3]),
+        friction: friction.map(|Friction::Coulomb { mu }| Coulomb { mu }),
+        dt: 0.0,
+        // A few units in the last place of a position.
+        touch: 16.0 * f64::EPSILON * reach,
+    })
+}
+
+fn failed(stage: &Stage, time: f64, failure: &Failure) -> Error {
+    Error::NotSettled {
+        stage: stage.name.clone(),
+        detail: format!(
+            "{failure}; the last converged state, t = {time:.6e} s, is kept. Shorter increments or steps, or another \
+             [stage.implicit] solver may help"
+        ),
+    }
+}
+
+/// An increment in the log: iterations with their residuals, contact changes and inner iterations.
+fn line(stage: &Stage, time: f64, length: f64, log: &[Iteration]) -> String {
+    let entry = |i: &Iteration| {
+        let cut = if i.share < 1.0 && i.inner > 0 { format!(" x{:.3}", i.share) } else { String::new() };
+        format!("{:.1e} ({} changes, {} inner{cut})", i.residual, i.changes, i.inner)
+    };
+    let entries: Vec<String> = log.iter().map(entry).collect();
+    format!("{}: t = {time:.6e} s, dt = {length:.3e} s: {}", stage.name, entries.join(", "))
+}

@@ -1,0 +1,9 @@
+//! The implicit scheme: tangents, Newton's method, contact, friction, time.
+
+mod fixtures;
+mod hard_cases;
+mod in_time;
+mod multigrid;
+mod runs;
+mod tangents;
+mod wheel_static;

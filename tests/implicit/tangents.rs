@@ -1,0 +1,93 @@
+//! The tangent is the derivative of the force, for every law, element and viscosity; symmetric where a potential
+//! exists.
+
+use super::fixtures::{body, model};
+use hexroll::implicit::assembly::Assembler;
+use hexroll::implicit::matrix::BlockMatrix;
+use hexroll::scene::{Element, Law, MeshSpec};
+
+const ELEMENTS: [Element; 3] = [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
+const LAWS: [Law; 3] = [
+    Law::NeoHookean { g0: 65.1e6, g1: 2.64e6 },
+    Law::MooneyRivlin { g0: 65.1e6, g1: 2.0e6, g2: 0.64e6 },
+    Law::MooneyRivlinEq4 { g0: 63.0e6, g1: 2.0e6, g2: 0.64e6 },
+];
+
+fn noise(n: usize, scale: f64) -> Vec<[f64; 3]> {
+    let mut state = 12345u64;
+    let mut next = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((state >> 33) as f64 / 2f64.powi(31) - 0.5) * scale
+    };
+    (0..n).map(|_| std::array::from_fn(|_| next())).collect()
+}
+
+fn sum(a: &[[f64; 3]], b: &[[f64; 3]], s: f64) -> Vec<[f64; 3]> {
+    a.iter().zip(b).map(|(a, b)| std::array::from_fn(|i| a[i] + s * b[i])).collect()
+}
+
+#[test]
+fn the_tangent_is_the_derivative_of_the_force() {
+    let mesh =
+        MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements: [8, 2, 2] };
+    for element in ELEMENTS {
+        for law in LAWS {
+            for viscosity in [None, Some(20.0)] {
+                let mut body = body(mesh.clone(), law, element);
+                body.viscosity = viscosity;
+                let model = model(&body, None);
+                let n = model.node_count();
+                // Strains of about 10 %, rates of about 100 1/s.
+                let x = sum(&model.mesh.nodes, &noise(n, 1.5e-3), 1.0);
+                let (v, rate) = (noise(n, 1.0), vec![2e4; n]);
+                let direction = noise(n, 1.0).into_iter().rev().collect::<Vec<_>>();
+                let assembler = Assembler::new(&model);
+                let mut matrix = BlockMatrix::of_mesh(n, &model.mesh.hexes);
+                assembler.tangent(&x, &v, &rate, &mut matrix);
+                let mut by_tangent = vec![[0.0; 3]; n];
+                matrix.multiply(&direction, &mut by_tangent);
+                let h = 1e-8;
+                let force = |s: f64| {
+                    let moved = sum(&x, &direction, s * h);
+                    assembler.forces(&moved, &sum(&v, &direction, s * h * rate[0])).unwrap().internal
+                };
+                let (plus, minus) = (force(1.0), force(-1.0));
+                let largest = by_tangent.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
+                for (k, t) in by_tangent.iter().enumerate() {
+                    for i in 0..3 {
+                        let difference = (plus[k][i] - minus[k][i]) / (2.0 * h);
+                        // Central differences: (h/size)^2 = 1e-12 plus round-off 1e-16 size/h = 1e-11, some hundredfold.
+                        assert!(
+                            (difference - t[i]).abs() < 1e-7 * largest,
+                            "{element:?} {law:?} {viscosity:?}: {difference} {}",
+                            t[i]
+                        );
+                    }
+                }
+                let asymmetry = asymmetry(&matrix);
+                // Elastic forces have a potential; viscous ones do not, and must show it.
+                assert!(
+                    if viscosity.is_none() { asymmetry < 1e-13 } else { asymmetry > 1e-6 },
+                    "{element:?} {law:?} {viscosity:?}: asymmetry {asymmetry:.1e}"
+                );
+            }
+        }
+    }
+}
+
+/// Largest difference of an entry and its mirror image, over the largest entry.
+fn asymmetry(matrix: &BlockMatrix) -> f64 {
+    let (mut worst, mut largest) = (0.0f64, 0.0f64);
+    for i in 0..matrix.rows() {
+        for (j, b) in matrix.row(i) {
+            let mirror = &matrix.blocks[matrix.entry(j, i as u32)];
+            for a in 0..3 {
+                for c in 0..3 {
+                    worst = worst.max((b[a][c] - mirror[c][a]).abs());
+                    largest = largest.max(b[a][c].abs());
+                }
+            }
+        }
+    }
+    worst / largest
+}
