@@ -18,9 +18,12 @@ pub fn compensated_sums(gpu: &Gpu, choice: &Choice) -> Result<()> {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         state as f32 / u32::MAX as f32
     };
+    // A move is mostly smaller than the coordinate, but not near zero: every other pair is the other way round.
     let pairs: Vec<[[f32; 4]; 2]> = (0..64)
-        .map(|_| {
-            [[next(), next() - 0.5, 0.04 * next(), 0.0], [1e-5 * next(), 1e-3 * next(), 1e-8 * next(), 0.0]]
+        .map(|k| {
+            let large = [next(), next() - 0.5, 0.04 * next(), 0.0];
+            let small = [1e-5 * next(), 1e-3 * next(), 1e-8 * next(), 0.0];
+            if k % 2 == 0 { [large, small] } else { [small, large] }
         })
         .collect();
     let mut buffers = Buffers::default();

@@ -1,6 +1,6 @@
 //! Single precision far from where the wheel started: positions are kept relative to a frame that follows the axle.
 
-use crate::rig::{Noise, Plan, Who, note, on_device, outcome, relative, safe_step, scene};
+use crate::rig::{Noise, Plan, Who, engine, note, on_device, outcome, relative, safe_step, scene};
 use hexroll::engine::{Engine, State};
 use hexroll::gpu::Gpu;
 use hexroll::model::Model;
@@ -66,6 +66,30 @@ pub fn followed(gpu: &Gpu) {
             [&got, &exact].map(|o| o.windows.iter().map(|w| w.rim_impulse[2]).sum::<f64>()).to_vec();
         note(|| format!("{who:?} after {:.2} m: shape {error:.1e}, impulse {forces:?}", end[0]));
         assert!(error < 5e-6, "{who:?}: the shape is off by {error:.2e}");
+        let moved = moved_by_sampling(gpu, who, &model, &scene, &plan);
+        note(|| format!("{who:?}: sampling moves nodes by {moved:.1e} m"));
+        // A coordinate of 40 mm is rounded to 2e-9 m, that of a pair to 2^-48 of itself, beside 4 m in f64.
+        let most = if who == Who::Plus { 2e-15 } else { 2e-9 };
+        assert!(moved <= most, "{who:?}: moving the frame moves nodes by {moved:.2e} m");
         assert!((forces[0] / forces[1] - 1.0).abs() < 1e-3, "{who:?}: {forces:?}");
     }
+}
+
+/// Furthest that a node is moved by a sample, which may move the frame and nothing else [m].
+fn moved_by_sampling(gpu: &Gpu, who: Who, model: &Model, scene: &Scene, plan: &Plan) -> f64 {
+    let mut engine = engine(gpu, who, model, scene);
+    engine.begin_stage(&plan.setup).unwrap();
+    let (v, rate) = plan.velocity.as_ref().unwrap();
+    engine.set_velocity(v, rate).unwrap();
+    let mut most = 0.0f64;
+    for (k, steps) in plan.windows.iter().enumerate() {
+        engine.advance(steps).unwrap();
+        let before = engine.state().unwrap();
+        engine.sample(plan.windows.get(k + 1).map_or(&plan.next, |w| &w[0])).unwrap();
+        let after = engine.state().unwrap();
+        assert!(before.v == after.v);
+        let nodes = before.x.as_flattened().iter().zip(after.x.as_flattened());
+        most = nodes.fold(most, |m, (a, b)| m.max((a - b).abs()));
+    }
+    most
 }
