@@ -77,7 +77,8 @@ fn contact_nodes(
     let Road::Plane { normal, velocity, .. } = *road;
     let areas = contact_areas(&model.mesh, |n| state.x[n as usize], road);
     let node = |((&node, sum), area): ((&u32, &crate::engine::SurfaceSum), f64)| {
-        let force = sum.impulse.map(|i| i / length);
+        // Before the first window there is no impulse and no time.
+        let force = sum.impulse.map(|i| if length > 0.0 { i / length } else { 0.0 });
         let relative = sub(sum.v, velocity);
         let slip = sub(relative, scale(normal, dot(relative, normal)));
         let touched = sum.touching > 0;

@@ -56,7 +56,7 @@ const BOUNDS: [(&str, f64); 9] = [
     ("contact impulse", 1e-4),
     ("surface x", 2e-6),
     ("surface v", 3e-4),
-    ("residual forces", 1e-4),
+    ("residual forces", 3e-4),
     ("min J", 2e-6),
     ("contact steps", 5e-3),
 ];

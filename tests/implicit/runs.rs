@@ -205,7 +205,7 @@ fn a_bouncing_block_agrees_with_the_explicit_engine() {
     println!("largest stored energy {a:.5} {b:.5} J");
     assert!((b / a - 1.0).abs() < 0.02, "{a} {b}");
     for (a, b) in by_explicit.samples.iter().zip(&by_implicit.samples) {
-        assert_eq!(a.time_s, b.time_s);
+        assert!((a.time_s - b.time_s).abs() < 1e-12, "windows end at the same times");
     }
     // No window creates energy; what is missing is landing nodes' momentum.
     let last = by_implicit.samples.last().unwrap();

@@ -27,7 +27,7 @@ impl Grid {
     }
 
     fn node(&self, i: usize, j: usize, k: usize) -> usize {
-        (k * self.rows() + i % self.rows()) * (self.counts[1] + 1) + j
+        (k * (self.counts[1] + 1) + j) * self.rows() + i % self.rows()
     }
 
     fn node_count(&self) -> usize {
@@ -64,8 +64,8 @@ impl Transfer {
         let mut start = vec![0u32];
         let mut shares = Vec::new();
         for k in 0..=fine.counts[2] {
-            for i in 0..fine.rows() {
-                for j in 0..=fine.counts[1] {
+            for j in 0..=fine.counts[1] {
+                for i in 0..fine.rows() {
                     push_shares(coarse, [i, j, k], &mut shares);
                     start.push(shares.len() as u32);
                 }
