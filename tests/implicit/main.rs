@@ -5,5 +5,6 @@ mod hard_cases;
 mod in_time;
 mod multigrid;
 mod runs;
+mod scene_keys;
 mod tangents;
 mod wheel_static;
