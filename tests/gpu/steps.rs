@@ -57,7 +57,7 @@ const BOUNDS: [(&str, f64); 9] = [
     ("surface x", 2e-6),
     ("surface v", 3e-4),
     ("residual forces", 3e-4),
-    ("min J", 2e-6),
+    ("min J", 5e-6),
     ("contact steps", 5e-3),
 ];
 /// All other fields.

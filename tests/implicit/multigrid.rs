@@ -50,7 +50,7 @@ fn pressed(model: &Model, mu: f64) -> System {
 }
 
 /// Iterations, seconds to prepare and to solve, MB.
-fn solved(solver: &mut dyn LinearSolver, system: &System) -> Option<(Vec<[f64; 3]>, usize, [f64; 3])> {
+fn solved(solver: &mut dyn LinearSolver, system: &System) -> Option<Solved> {
     let start = Instant::now();
     solver.prepare(system)?;
     let prepared = start.elapsed().as_secs_f64();
@@ -63,7 +63,10 @@ fn multigrid(scene: &Scene, model: &Model) -> Krylov<Multigrid> {
     Krylov { preconditioner: Multigrid::new(scene, model).unwrap(), tolerance: 1e-8, most: 200 }
 }
 
-fn report(name: &str, model: &Model, result: &Option<(Vec<[f64; 3]>, usize, [f64; 3])>) {
+/// A solution, its iterations, and what the printed line says of time and memory.
+type Solved = (Vec<[f64; 3]>, usize, [f64; 3]);
+
+fn report(name: &str, model: &Model, result: &Option<Solved>) {
     match result {
         Some((_, n, [prepare, solve, bytes])) => println!(
             "{:>8} elements {:>9} unknowns {name:<14} {n:>6} iterations, prepared in {prepare:.2} s, solved in \
