@@ -74,12 +74,26 @@ pub struct SurfaceSum {
     pub v: [f64; 3],
     /// Sum of contact force times mean step [N s].
     pub impulse: [f64; 3],
+    /// Work of the tangential force on the node [J]; what friction dissipates is this less impulse times road velocity.
+    pub friction_work: f64,
     /// Steps in contact, and those of them that stick.
     pub touching: u32,
     pub sticking: u32,
     /// State in the last step.
     pub touches: bool,
     pub sticks: bool,
+}
+
+/// Contact over the whole body in one step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StepContact {
+    /// Mean step over which the force acts [s].
+    pub dtm: f64,
+    /// Force of the road on the body [N].
+    pub force: [f64; 3],
+    /// Touching nodes, and nodes whose state (free, stick, slip) is not that of the step before.
+    pub touching: u32,
+    pub changes: u32,
 }
 
 /// What an engine reports of the steps since the last report.
@@ -92,6 +106,8 @@ pub struct Window {
     pub rim_moment_impulse: [f64; 3],
     /// Every surface node (empty without a road).
     pub surface: Vec<SurfaceSum>,
+    /// One entry a step of the window, in order (empty without a road).
+    pub step_contact: Vec<StepContact>,
     /// Rim coordinates at the end of the window, and their half-step rates.
     pub rim: Coordinates,
     pub rim_rate: Coordinates,

@@ -415,6 +415,7 @@ where
             rim_impulse: committed.rim_impulse,
             rim_moment_impulse: committed.rim_moment_impulse,
             surface,
+            step_contact: Vec::new(),
             rim: self.rim.q,
             rim_rate: self.rim.rate,
             kinetic,

@@ -321,8 +321,9 @@ unsafe fn book_touch<T: Real, const PROBE: bool>(
 ) {
     let way = axpy(t.v, c.weights[1], scale(before, c.weights[0]));
     let works = unsafe { &mut (*books.sums.add(chunk)).works };
+    let friction_work = dot(t.tangential_force, way).to_f64();
     works.normal += dot(t.normal_force, way).to_f64();
-    works.friction += dot(t.tangential_force, way).to_f64();
+    works.friction += friction_work;
     if PROBE {
         return;
     }
@@ -330,6 +331,7 @@ unsafe fn book_touch<T: Real, const PROBE: bool>(
     for d in 0..3 {
         sum.impulse[d] += (t.normal_force[d] + t.tangential_force[d]).to_f64() * c.step.dtm.to_f64();
     }
+    sum.friction_work += friction_work;
     sum.touching += 1;
     sum.sticking += u32::from(t.sticks);
     sum.sticks = t.sticks;

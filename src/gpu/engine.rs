@@ -682,6 +682,7 @@ impl GpuEngine {
                 x: std::array::from_fn(|d| f64::from(x[d]) + self.frame[d]),
                 v: [v[0], v[1], v[2]].map(f64::from),
                 impulse: [0, 1, 2].map(|d| f64::from(record.impulse[d])),
+                friction_work: f64::from(record.friction_work),
                 touching: record.touching,
                 sticking: record.sticking,
                 touches: record.state != 0,
