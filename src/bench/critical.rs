@@ -14,7 +14,7 @@ use crate::run::{Observer, Progress, run, stability};
 use crate::scene::Scene;
 
 /// Time steps of the paper's wheel, and rolling runs at several safeties.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct CriticalReport {
     pub steps: Vec<CriticalStep>,
     pub runs: Vec<RollingRun>,
@@ -58,24 +58,51 @@ pub struct RollingRun {
     pub failure: Option<String>,
 }
 
-/// Safeties that are tried: the default, the asked for, and two that must fail or nearly so.
+/// Safeties that are tried; the last must fail.
 const SAFETIES: [f64; 5] = [0.9, 0.95, 0.97, 1.0, 1.05];
 
-/// Everything, for the paper's mesh; `note` hears of every run.
-pub fn measure(elements: &[&str], note: &mut dyn FnMut(&str)) -> Result<CriticalReport> {
-    let mut report = CriticalReport { steps: Vec::new(), runs: Vec::new() };
-    for &element in elements {
-        for viscosity in [None, Some(20.0)] {
-            let wheel = Wheel { elements: 880, element, contact: true, viscosity };
-            note(&format!("critical step of {element}, viscosity {} Pa s", viscosity.unwrap_or(0.0)));
-            report.steps.extend(steps(&wheel)?);
+/// Larger meshes are left out: their iterations take minutes.
+const LARGEST: usize = 60_000;
+
+/// Critical steps of wheels of these sizes at rest.
+pub fn at_rest(
+    elements: &[&str],
+    sizes: &[usize],
+    viscosities: &[Option<f64>],
+    note: &mut dyn FnMut(&str),
+) -> Result<CriticalReport> {
+    let mut report = CriticalReport::default();
+    for &count in sizes.iter().filter(|n| **n <= LARGEST) {
+        for &element in elements {
+            for &viscosity in viscosities {
+                let wheel = Wheel { elements: count, element, contact: true, viscosity };
+                note(&format!("critical step of {element} {count}"));
+                let scene = wheel.scene()?;
+                let model = Model::new(&scene)?;
+                let bound = stability::element_bound(&model)?;
+                let mut engine = engine(&model, &scene, Precision::F64, 0);
+                report.steps.push(step(&wheel, "rest", &mut *engine, &model, bound)?);
+            }
         }
     }
-    for viscosity in [None, Some(20.0)] {
+    Ok(report)
+}
+
+/// Everything, for the paper's mesh: critical steps at rest and pressed, and rolling runs of the first of `elements`.
+pub fn measure(elements: &[&str], note: &mut dyn FnMut(&str)) -> Result<CriticalReport> {
+    let mut report = CriticalReport::default();
+    let wheel = |element, viscosity| Wheel { elements: 880, element, contact: true, viscosity };
+    let viscosities = [None, Some(20.0)];
+    for &element in elements {
+        for viscosity in viscosities {
+            note(&format!("critical step of {element}, viscosity {} Pa s", viscosity.unwrap_or(0.0)));
+            report.steps.extend(steps(&wheel(element, viscosity))?);
+        }
+    }
+    for viscosity in viscosities {
         for safety in SAFETIES {
             note(&format!("rolling at safety {safety}, viscosity {} Pa s", viscosity.unwrap_or(0.0)));
-            let wheel = Wheel { elements: 880, element: elements[0], contact: true, viscosity };
-            report.runs.push(rolling(&wheel, safety)?);
+            report.runs.push(rolling(&wheel(elements[0], viscosity), safety)?);
         }
     }
     Ok(report)

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::critical::CriticalReport;
+use super::gpu_limits::GpuLimits;
 use super::report::{Missing, Report, Row};
 use super::straight::StraightRun;
 
@@ -167,7 +168,23 @@ fn limits(report: &Report) -> String {
         cells.extend([short(1e-9 * l.flops_per_s), short(1e6 * l.barrier_s)]);
         text += &line(&cells);
     }
+    text += &report.limits.gpu.as_ref().map_or(String::new(), gpu_limits);
     text + "\n"
+}
+
+fn gpu_limits(l: &GpuLimits) -> String {
+    let copies: Vec<String> = l
+        .copy
+        .iter()
+        .map(|c| format!("{} GB/s ({} MiB)", short(1e-9 * c.bytes_per_s), c.bytes >> 20))
+        .collect();
+    format!(
+        "\nAdapter: copy {}; multiply-add {} Gflop/s; empty dispatch {} us, empty submission {} us.\n",
+        copies.join(", "),
+        short(1e-9 * l.flops_per_s),
+        short(1e6 * l.dispatch_s),
+        short(1e6 * l.submit_s)
+    )
 }
 
 fn missing(rows: &[Missing]) -> String {
@@ -206,6 +223,9 @@ fn steps(report: &CriticalReport) -> String {
             format!("{:+.1} %", 100.0 * (s.assembled / s.element_bound - 1.0)),
             s.iterations.to_string(),
         ]);
+    }
+    if report.runs.is_empty() {
+        return text + "\n";
     }
     text += "\n0.1 s of rolling (straight run, mu = 1) at several safety factors:\n\n";
     text += &header(&[

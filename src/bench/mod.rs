@@ -11,6 +11,7 @@ pub mod counting;
 pub mod cpu_limits;
 pub mod critical;
 pub mod floor;
+pub mod gpu_limits;
 pub mod machine;
 pub mod markdown;
 pub mod record;

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::cpu_limits::CpuLimits;
 use super::critical::CriticalReport;
 use super::floor::Bound;
+use super::gpu_limits::GpuLimits;
 use super::machine::Machine;
 use super::straight::StraightRun;
 use super::work::Pass;
@@ -27,6 +28,8 @@ pub struct Report {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Limits {
     pub cpu: Vec<CpuLimits>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gpu: Option<GpuLimits>,
 }
 
 /// Least, median and most of repeated measurements.

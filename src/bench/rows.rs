@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use super::cpu_limits::{CpuLimits, lanes_name};
 use super::floor::{self, Bound, Limits};
+use super::gpu_limits::GpuLimits;
 use super::machine::{available_memory, resident_memory};
 use super::report::{Missing, Report, Row, Spread};
 use super::shuffle::shuffled;
@@ -11,7 +12,7 @@ use super::wheel::{Roll, Wheel};
 use super::work::{self, Pass};
 use crate::cpu::{Precision, engine_at};
 use crate::engine::{Engine, State};
-use crate::gpu::{Gpu, GpuEngine};
+use crate::gpu::{Gpu, GpuEngine, PassTime, PassTimes};
 use crate::model::Model;
 use crate::physics::lanes::Level;
 use crate::scene::Scene;
@@ -104,6 +105,8 @@ struct Timed {
     batch: usize,
     memory: Option<f64>,
     state: State,
+    /// On a GPU: time and bytes by pass, and how steps are submitted.
+    by_pass: Option<PassTimes>,
 }
 
 /// Fills the table of `report`; `done` sees it after every wheel.
@@ -116,6 +119,9 @@ pub fn fill(
     gpu: Option<&Gpu>,
     done: &mut dyn FnMut(&Report) -> Result<()>,
 ) -> Result<()> {
+    if let Some(gpu) = gpu {
+        report.limits.gpu = Some(GpuLimits::measure(gpu)?);
+    }
     for &elements in &options.sizes {
         for &viscosity in &options.viscosity {
             for &contact in &options.contact {
@@ -213,41 +219,57 @@ impl Bench<'_> {
         scene: &Scene,
         roll: &Roll,
     ) -> Result<Timed> {
-        let make = || -> Result<Box<dyn Engine>> {
-            let cpu = |precision| engine_at(model, scene, precision, threads, level);
-            match kind {
-                Kind::CpuF64 => Ok(cpu(Precision::F64)),
-                Kind::CpuF32 => Ok(cpu(Precision::F32)),
-                Kind::GpuF32 | Kind::GpuF32Plus => {
-                    let gpu = self.gpu.ok_or(Error::NoAdapter { detail: "none is open".into() })?;
-                    Ok(Box::new(GpuEngine::new(gpu, model, scene, kind == Kind::GpuF32Plus)?))
-                }
-            }
-        };
         let seconds = self.options.seconds;
-        let copies = if kind.on_gpu() { 1 } else { self.options.copies };
+        if kind.on_gpu() {
+            return self.time_gpu(kind, model, scene, roll, seconds);
+        }
+        let precision = if kind == Kind::CpuF64 { Precision::F64 } else { Precision::F32 };
+        let make = || engine_at(model, scene, precision, threads, level);
+        let copies = self.options.copies;
         let before = resident_memory();
         let (clock, state, after) = if copies == 1 {
-            let mut engine = make()?;
+            let mut engine = make();
             let clock = Clock::run(&mut *engine, model, roll, seconds)?;
             (clock, engine.state()?, resident_memory())
         } else {
             together(copies, &make, model, roll, seconds)?
         };
         // Less than this is lost among the process's other allocations.
-        let large = model.element_count() >= 50_000 && !kind.on_gpu();
+        let large = model.element_count() >= 50_000;
         let grown = before.zip(after).map(|(b, a)| a.saturating_sub(b) as f64);
         let memory = grown.filter(|_| large).map(|bytes| bytes / (copies * model.element_count()) as f64);
         let Clock { us, steps, batch } = clock;
-        Ok(Timed { kind, level, threads, copies, us, steps, batch, memory, state })
+        Ok(Timed { kind, level, threads, copies, us, steps, batch, memory, state, by_pass: None })
+    }
+
+    /// The same on the adapter; the passes are timed one by one afterwards, since that costs time itself.
+    fn time_gpu(&self, kind: Kind, model: &Model, scene: &Scene, roll: &Roll, seconds: f64) -> Result<Timed> {
+        let gpu = self.gpu.ok_or(Error::NoAdapter { detail: "none is open".into() })?;
+        let mut engine = GpuEngine::new(gpu, model, scene, kind == Kind::GpuF32Plus)?;
+        let Clock { us, steps, batch } = Clock::run(&mut engine, model, roll, seconds)?;
+        let by_pass = engine.timed_advance(&roll.steps(steps, batch.min(512)))?;
+        let steps = steps + by_pass.steps;
+        let state = engine.state()?;
+        let level = Level::detect();
+        let by_pass = Some(by_pass);
+        Ok(Timed { kind, level, threads: 0, copies: 1, us, steps, batch, memory: None, state, by_pass })
     }
 
     fn row(&mut self, model: &Model, roll: &Roll, timed: &Timed, reference: &State) -> Row {
         let &Timed { kind, level, threads, copies, .. } = timed;
         let (elements, count) = (model.element_count() as f64, copies as f64);
-        let (passes, mix) = cost(kind, model);
+        let (mut passes, mix) = cost(kind, model);
+        let mut pass_us = Vec::new();
+        if let Some(times) = &timed.by_pass {
+            passes = gpu_passes(times, &passes);
+            let each = |p: &PassTime| p.seconds.map(|s| 1e6 * s / times.steps as f64);
+            pass_us = times.passes.iter().filter_map(each).collect();
+        }
         let (bytes, flops) = totals(&passes);
-        let limits = self.limits(kind, level, threads * copies, count * arrays(kind, model));
+        let limits = match (kind.on_gpu(), &self.report.limits.gpu) {
+            (true, Some(gpu)) => gpu.at(4.0 / 3.0 * arrays(kind, model)),
+            _ => self.limits(kind, level, threads * copies, count * arrays(kind, model)),
+        };
         // Rates of the limits are of all copies together: a copy has its share.
         let each = Limits { bandwidth: limits.bandwidth / count, flops: limits.flops / count, ..limits };
         let floor = floor::floor(&passes, &each);
@@ -275,10 +297,13 @@ impl Bench<'_> {
             bytes_per_update: bytes / elements,
             flops_per_update: flops / elements,
             mix,
-            reason: (fraction < 0.5).then(|| reason(floor.bound_by, fraction, mix, &passes, &each)),
+            reason: (fraction < 0.5).then(|| {
+                reason(floor.bound_by, fraction, mix, &passes, &each)
+                    + &dominant(&passes, &pass_us, timed.us.median)
+            }),
             passes,
-            pass_us: Vec::new(),
-            steps_per_submit: None,
+            pass_us,
+            steps_per_submit: timed.by_pass.as_ref().map(|t| t.steps_per_submit),
             memory_per_element: timed.memory,
             error: error.is_finite().then_some(error),
             error_limit: kind.error_limit(),
@@ -308,6 +333,13 @@ fn cost(kind: Kind, model: &Model) -> (Vec<Pass>, f64) {
         _ => (work::cpu_passes::<f32>(model), work::element_operations::<f32>(model)),
     };
     (passes, operations.flops() as f64 / (2.0 * operations.places() as f64))
+}
+
+/// Passes of a GPU engine: the bytes of their bindings, and the arithmetic of those of the same name.
+fn gpu_passes(times: &PassTimes, alike: &[Pass]) -> Vec<Pass> {
+    let flops = |kernel: &str| alike.iter().find(|p| kernel.starts_with(&p.name)).map_or(0.0, |p| p.flops);
+    let pass = |p: &PassTime| Pass { name: p.kernel.clone(), bytes: p.bytes as f64, flops: flops(&p.kernel) };
+    times.passes.iter().map(pass).collect()
 }
 
 /// Size of an engine's arrays [bytes].
@@ -351,6 +383,19 @@ fn reason(bound: Bound, fraction: f64, mix: f64, passes: &[Pass], limits: &Limit
     }
 }
 
+/// Which pass takes most of a step of `step_us`, where the device says.
+fn dominant(passes: &[Pass], pass_us: &[f64], step_us: f64) -> String {
+    let most = passes.iter().zip(pass_us).max_by(|a, b| a.1.total_cmp(b.1));
+    let Some((pass, us)) = most else { return String::new() };
+    let all: f64 = pass_us.iter().sum();
+    format!(
+        "; {} takes {:.0} % of the time on the device, which is {:.0} % of the step",
+        pass.name,
+        100.0 * us / all,
+        100.0 * all / step_us
+    )
+}
+
 /// The measurement of one engine.
 struct Clock {
     us: Spread,
@@ -391,13 +436,13 @@ impl Clock {
 /// Several independent engines at once, one a thread: the slowest one's times, the first one's state.
 fn together(
     copies: usize,
-    make: &(dyn Fn() -> Result<Box<dyn Engine>> + Sync),
+    make: &(dyn Fn() -> Box<dyn Engine> + Sync),
     model: &Model,
     roll: &Roll,
     seconds: f64,
 ) -> Result<(Clock, State, Option<u64>)> {
     let one = || -> Result<(Clock, State, Option<u64>)> {
-        let mut engine = make()?;
+        let mut engine = make();
         let clock = Clock::run(&mut *engine, model, roll, seconds)?;
         Ok((clock, engine.state()?, resident_memory()))
     };

@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::choose::usable;
+use crate::bench::critical::{self, CriticalReport};
 use crate::bench::record::{self, Record};
 use crate::bench::report::{Missing, Report};
 use crate::bench::rows::{self, Kind, Options, Order};
-use crate::bench::{critical, machine::Machine, markdown, straight, wheel};
+use crate::bench::{machine::Machine, markdown, straight, wheel};
 use crate::gpu::{Gpu, adapters};
 use crate::physics::lanes::Level;
 use crate::{Error, Result};
@@ -47,7 +48,7 @@ pub struct BenchArgs {
     /// Threads of the CPU engines; 0: one a core
     #[arg(long, value_delimiter = ',', value_name = "N", default_value = "0")]
     threads: Vec<usize>,
-    /// Instructions of the CPU engines: portable, avx2, avx512; default: the best of this machine
+    /// Instructions of the CPU engines: portable, avx2, avx512, best (of this machine; the default)
     #[arg(long, value_delimiter = ',', value_name = "LANES", value_parser = lanes)]
     lanes: Option<Vec<Level>>,
     /// Numbering of the mesh
@@ -81,7 +82,9 @@ pub struct BenchArgs {
 enum Part {
     /// Rates of every engine on every mesh
     Table,
-    /// Critical step against estimates; stability at several safeties
+    /// Critical step against estimates at rest, for every size up to 60,000 elements
+    Steps,
+    /// The same at rest and pressed, for 880 elements; stability at several safeties
     Critical,
     /// The paper's 0.1 s of straight rolling, from the start to the end
     Straight,
@@ -127,7 +130,8 @@ fn lanes(text: &str) -> std::result::Result<Level, String> {
         "portable" => Level::Portable,
         "avx2" => Level::Avx2,
         "avx512" => Level::Avx512,
-        _ => return Err("portable, avx2 or avx512 is needed".into()),
+        "best" => Level::detect(),
+        _ => return Err("portable, avx2, avx512 or best is needed".into()),
     };
     if level > Level::detect() {
         return Err("this machine does not have these instructions".into());
@@ -157,7 +161,7 @@ pub fn execute(args: &BenchArgs) -> Result<()> {
     let mut report = Report::default();
     // Time steps are found in f64, on the CPU.
     let (engines, gpu) = match parts {
-        [Part::Critical] => (Vec::new(), None),
+        [Part::Critical | Part::Steps] => (Vec::new(), None),
         _ => engines(args, &mut report)?,
     };
     report.machine = Machine::describe(gpu.as_ref().map(|g| &g.report));
@@ -171,11 +175,7 @@ pub fn execute(args: &BenchArgs) -> Result<()> {
     for part in parts {
         match part {
             Part::Table => table(args, &engines, gpu.as_ref(), &mut report, &mut save)?,
-            Part::Critical => {
-                let elements: Vec<&str> = args.elements.iter().map(String::as_str).collect();
-                let critical = critical::measure(&elements, &mut |line| eprintln!("{line}"))?;
-                report.critical = Some(critical);
-            }
+            Part::Steps | Part::Critical => report.critical = Some(time_steps(args, *part)?),
             Part::Straight => straight_runs(args, &engines, gpu.as_ref(), &mut report)?,
         }
         save(&report)?;
@@ -256,6 +256,15 @@ fn table(
         told = report.rows.len();
         save(report)
     })
+}
+
+fn time_steps(args: &BenchArgs, part: Part) -> Result<CriticalReport> {
+    let elements: Vec<&str> = args.elements.iter().map(String::as_str).collect();
+    let mut note = |line: &str| eprintln!("{line}");
+    match part {
+        Part::Critical => critical::measure(&elements, &mut note),
+        _ => critical::at_rest(&elements, &args.sizes, &args.viscosity.0, &mut note),
+    }
 }
 
 fn straight_runs(args: &BenchArgs, engines: &[Kind], gpu: Option<&Gpu>, report: &mut Report) -> Result<()> {
