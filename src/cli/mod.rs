@@ -4,6 +4,7 @@
 //! [`Error::exit_code`](crate::Error::exit_code).
 
 mod adapters;
+mod bench;
 mod check;
 pub mod choose;
 mod compare;
@@ -68,6 +69,9 @@ enum Command {
     Compare(compare::CompareArgs),
     /// List the GPU adapters, their limits, and the one that `--engine auto` takes
     Adapters(adapters::AdaptersArgs),
+    /// Time every engine against the machine's measured limits
+    #[command(after_help = bench::HELP)]
+    Bench(bench::BenchArgs),
 }
 
 impl Cli {
@@ -93,6 +97,7 @@ impl Cli {
             Command::Render(args) => render::execute(&args),
             Command::Compare(args) => compare::execute(&args),
             Command::Adapters(args) => adapters::execute(&args),
+            Command::Bench(args) => bench::execute(&args),
         }
     }
 }
