@@ -6,7 +6,7 @@
 
 mod body;
 mod camera;
-mod canvas;
+pub(crate) mod canvas;
 mod colour;
 mod contact;
 mod field;
