@@ -141,6 +141,8 @@ pub struct ContactNoise {
     pub start: f64,
     pub end: f64,
     pub steps: u64,
+    /// Steps without any contact.
+    pub free_steps: u64,
     /// Mean force, and standard deviation of the single steps about it [N].
     pub mean: [f64; 3],
     pub std: [f64; 3],

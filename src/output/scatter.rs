@@ -51,12 +51,16 @@ pub struct ContactScatter {
     pub limit: f64,
 }
 
+/// Steps that a judgement takes: some hundred, the periods of a body's lower modes.
+const LEAST_STEPS: u64 = 300;
+
 impl ContactScatter {
-    /// Judges a stage's noise; none where the body was off the road.
+    /// Judges a stage's noise; none where the body has left the road on the way, or of so few steps that a motion looks
+    /// like noise.
     pub fn of(noise: &ContactNoise, road: &Road, limit: f64) -> Option<ContactScatter> {
         let Road::Plane { normal, .. } = road;
         let mean_normal_N = dot(noise.mean, *normal);
-        if mean_normal_N <= 0.0 {
+        if mean_normal_N <= 0.0 || noise.free_steps > 0 || noise.steps < LEAST_STEPS {
             return None;
         }
         let share = |std: [f64; 3]| std.into_iter().fold(0.0, f64::max) / mean_normal_N;
@@ -84,5 +88,49 @@ impl ContactScatter {
             changing_share: noise.changing_share,
             limit,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Tone;
+
+    const ROAD: Road = Road::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [0.0; 3] };
+
+    /// 300 N, with a tone and a rest of so many newtons along z.
+    fn noise(tone: f64, rest: f64) -> ContactNoise {
+        let along = |z: f64| [0.0, 0.0, z];
+        ContactNoise {
+            steps: 2000,
+            mean: along(300.0),
+            std: along(tone.hypot(rest)),
+            tone: Some(Tone { frequency: 490.0, std: along(tone) }),
+            remaining: along(rest),
+            ..ContactNoise::default()
+        }
+    }
+
+    #[test]
+    fn the_limit_parts_smooth_from_tone_and_chatter() {
+        let verdict =
+            |tone, rest, limit| ContactScatter::of(&noise(tone, rest), &ROAD, limit).unwrap().verdict;
+        assert_eq!(verdict(14.9, 14.9, 0.05), Verdict::Smooth);
+        assert_eq!(verdict(15.1, 14.9, 0.05), Verdict::Tone);
+        assert_eq!(verdict(14.9, 15.1, 0.05), Verdict::Chattering);
+        assert_eq!(verdict(50.0, 15.1, 0.05), Verdict::Chattering, "chatter matters more");
+        assert_eq!(verdict(50.0, 15.1, 0.2), Verdict::Smooth);
+        // Sideways scatter counts against the normal force too.
+        let sideways = ContactNoise { remaining: [0.0, 16.0, 0.0], ..noise(0.0, 0.0) };
+        assert_eq!(ContactScatter::of(&sideways, &ROAD, 0.05).unwrap().verdict, Verdict::Chattering);
+    }
+
+    #[test]
+    fn what_leaves_the_road_or_hardly_steps_is_not_judged() {
+        let judged = |noise: ContactNoise| ContactScatter::of(&noise, &ROAD, 0.05).is_some();
+        assert!(judged(noise(1.0, 1.0)));
+        assert!(!judged(ContactNoise { free_steps: 1, ..noise(1.0, 1.0) }));
+        assert!(!judged(ContactNoise { steps: 200, ..noise(1.0, 1.0) }));
+        assert!(!judged(ContactNoise { mean: [0.0; 3], ..noise(1.0, 1.0) }));
     }
 }

@@ -39,6 +39,7 @@ struct Block {
     /// Spin angle at both ends [rad].
     spin: [f64; 2],
     steps: u64,
+    free_steps: u64,
     touching: u64,
     changes: u64,
     /// Weighted sums of products of the basis functions, and of those with the force and of the force's squares.
@@ -121,6 +122,7 @@ impl Block {
             end,
             spin,
             steps: 0,
+            free_steps: 0,
             touching: 0,
             changes: 0,
             normal: [[0.0; UNKNOWNS]; UNKNOWNS],
@@ -144,6 +146,7 @@ impl Block {
             self.squares[d] += step.dtm * step.force[d] * step.force[d];
         }
         self.steps += 1;
+        self.free_steps += u64::from(step.touching == 0);
         self.touching += u64::from(step.touching);
         self.changes += u64::from(step.changes);
     }
@@ -152,6 +155,7 @@ impl Block {
     fn merge(&mut self, next: &Block) {
         (self.end, self.spin[1]) = (next.end, next.spin[1]);
         self.steps += next.steps;
+        self.free_steps += next.free_steps;
         self.touching += next.touching;
         self.changes += next.changes;
         let add = |to: &mut [f64], from: &[f64]| to.iter_mut().zip(from).for_each(|(a, b)| *a += b);
@@ -187,6 +191,7 @@ impl Block {
             start: self.start,
             end: self.end,
             steps: self.steps,
+            free_steps: self.free_steps,
             mean,
             std: [0, 1, 2].map(|d| root(of_squares(d) - mean[d] * mean[d])),
             tone: (unknowns > 2)

@@ -73,9 +73,25 @@ pub const QUANTITIES: [Quantity; 14] = [
 /// A force or moment below this share of the largest of its kind is zero by symmetry, or as good as that.
 const NOTHING: f64 = 1e-4;
 
-/// The quantities that some of the runs have and that are more than round-off beside others of their unit.
+/// Runs whose values differ by less than this, relative, have the value prescribed.
+const SAME: f64 = 1e-9;
+
+/// The quantities that some of the runs have, that are more than round-off beside others of their unit, and that are not
+/// the same in all of several runs.
 pub fn present(means: &[&StageMeans]) -> Vec<Quantity> {
     let size = |q: &Quantity| means.iter().map(|m| (q.value)(m).abs()).fold(0.0, f64::max);
     let scale = |unit: &str| QUANTITIES.iter().filter(|q| q.unit == unit).map(size).fold(0.0, f64::max);
-    QUANTITIES.into_iter().filter(|q| size(q) > NOTHING * scale(q.unit)).collect()
+    let varies = |q: &Quantity| {
+        let first = means.first().map_or(0.0, |m| (q.value)(m));
+        let same = |m: &&StageMeans| ((q.value)(m) - first).abs() <= SAME * first.abs();
+        means.len() < 2 || !means.iter().all(same)
+    };
+    let something = |q: &Quantity| size(q) > NOTHING * scale(q.unit);
+    QUANTITIES.into_iter().filter(|q| something(q) && varies(q)).collect()
+}
+
+/// A value for a table: 0 where it is round-off beside the others of its quantity.
+pub fn cleaned(value: f64, all: impl Iterator<Item = f64>) -> f64 {
+    let size = all.map(f64::abs).fold(0.0, f64::max);
+    if value.abs() < SAME * size { 0.0 } else { value }
 }

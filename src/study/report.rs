@@ -93,7 +93,7 @@ impl Study {
         for run in &self.runs {
             let s = &run.summary;
             let contact = s.stages.last().and_then(|m| m.contact.as_ref());
-            let contact = contact.map_or("at rest".into(), |c| {
+            let contact = contact.map_or("–".into(), |c| {
                 let verdict = match c.verdict {
                     Verdict::Smooth => "smooth",
                     Verdict::Tone => "hums",

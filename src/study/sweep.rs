@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::quantity::{Quantity, present};
+use super::quantity::{Quantity, cleaned, present};
 use super::report::{number, with_error};
 use crate::Result;
 use crate::output::Verdict;
@@ -87,9 +87,12 @@ impl Sweep {
         for point in &self.points {
             let Some(means) = point.summary.stages.last() else { continue };
             point.values.iter().for_each(|v| _ = write!(text, "| {v} "));
-            quantities.iter().for_each(|q| _ = write!(text, "| {} ", number((q.value)(means))));
+            for q in &quantities {
+                let all = self.means().into_iter().map(|m| (q.value)(m));
+                _ = write!(text, "| {} ", number(cleaned((q.value)(means), all)));
+            }
             let verdict = match means.contact.as_ref().map(|c| c.verdict) {
-                None => "at rest",
+                None => "–",
                 Some(Verdict::Smooth) => "smooth",
                 Some(Verdict::Tone) => "hums",
                 Some(Verdict::Chattering) => "**chattering**",
