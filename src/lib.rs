@@ -14,9 +14,11 @@ pub mod implicit;
 pub mod model;
 pub mod output;
 pub mod physics;
+pub mod plot;
 pub mod record;
 pub mod render;
 pub mod run;
 pub mod scene;
+pub mod study;
 
 pub use error::{Error, Result};

@@ -8,3 +8,4 @@ mod ending_early;
 mod mistakes;
 mod program;
 mod running;
+mod studies;
