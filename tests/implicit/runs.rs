@@ -45,7 +45,7 @@ fn run(scene: &Scene) -> (Result<Totals>, Kept) {
 
 #[test]
 fn the_static_scene_finds_2_2_mm_in_ten_quick_increments() {
-    let (totals, kept) = run(&load("lat100_static_implicit", &[]));
+    let (totals, kept) = run(&load("lat100_static", &[]));
     let totals = totals.unwrap();
     kept.notes.iter().for_each(|n| println!("{n}"));
     let last = kept.samples.last().unwrap();
@@ -76,7 +76,7 @@ fn the_static_scene_finds_2_2_mm_in_ten_quick_increments() {
 fn the_explicit_engine_stays_in_the_equilibrium() {
     // Rim at rest over 10 ms.
     let scene = load(
-        "lat100_straight_from_implicit",
+        "lat100_straight_viscous",
         &[
             "body.material.viscosity=0 Pa s",
             "stage.1.duration=10 ms",
@@ -102,7 +102,7 @@ fn the_explicit_engine_stays_in_the_equilibrium() {
 fn a_torque_free_wheel_turns_as_it_is_dragged() {
     // Statics along a path: pressed over 2 mm of 5 mm forwards; the free spin follows the road.
     let scene = load(
-        "lat100_static_implicit",
+        "lat100_static",
         &[
             "stage.0.rim.z={ displacement = \"-2.2 mm\", ramp = \"10 ms\" }",
             "stage.0.rim.x={ displacement = \"5 mm\", ramp = \"20 ms\" }",
@@ -123,7 +123,7 @@ fn a_torque_free_wheel_turns_as_it_is_dragged() {
 #[test]
 fn what_cannot_converge_says_so_and_keeps_the_last_state() {
     // Nothing holds the wheel vertically before it touches: lifted first, then free.
-    let scene = load("lat100_static_implicit", &["body.offset=[\"0 mm\", \"0 mm\", \"1 mm\"]"]);
+    let scene = load("lat100_static", &["body.offset=[\"0 mm\", \"0 mm\", \"1 mm\"]"]);
     let (result, kept) = run(&scene);
     let Err(error @ Error::NotSettled { .. }) = result else { panic!("{result:?}") };
     assert!(error.to_string().contains("move freely"), "{error}");
@@ -135,7 +135,7 @@ fn what_cannot_converge_says_so_and_keeps_the_last_state() {
 #[test]
 fn the_first_milliseconds_of_rolling_agree_with_the_explicit_engine() {
     let short = ["stage.1.duration=8 ms", "output.sample=2 ms", "output.snapshots=none"];
-    let (explicit, by_explicit) = run(&load("lat100_straight_from_implicit", &short));
+    let (explicit, by_explicit) = run(&load("lat100_straight_viscous", &short));
     let (implicit, by_implicit) = run(&load("lat100_straight_implicit", &short));
     explicit.unwrap();
     println!("{:?}", implicit.unwrap().implicit);

@@ -1,0 +1,57 @@
+//! Multigrid inside the projected relaxation: the active set's solution, in iterations that hardly depend on the mesh.
+
+use super::fixtures::*;
+use hexroll::implicit::krylov::Krylov;
+use hexroll::implicit::multigrid::Multigrid;
+use hexroll::implicit::relax::{Corrections, Relaxation};
+use hexroll::implicit::{Inner, Limits, Scheme, Simulation};
+use hexroll::model::Model;
+use hexroll::scene::{Element, MeshSpec};
+
+const LIMITS: Limits = Limits { tolerance: 1e-9, iterations: 30 };
+
+fn mesh(elements: [usize; 3]) -> MeshSpec {
+    MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements }
+}
+
+fn corrected(elements: [usize; 3]) -> Inner {
+    let cycles =
+        Krylov { preconditioner: Multigrid::new(&mesh(elements)).unwrap(), tolerance: 1e-2, most: 100 };
+    let relaxation = Relaxation { omega: 1.0, tolerance: 1e-11, sweeps: 2_000 };
+    Inner::Corrected(relaxation, Corrections::new(Box::new(cycles)))
+}
+
+/// Presses by 2.2 mm in four increments; multigrid cycles of every Newton iteration.
+fn press(s: &mut Simulation<'_>, model: &Model) -> Vec<usize> {
+    let mut cycles = Vec::new();
+    for n in 1..=4 {
+        let down = -2.2e-3 * f64::from(n) / 4.0;
+        let target = held(model, f64::from(n), 1.0, [0.0, 0.0, down, 0.0, 0.0, 0.0]);
+        let log = s.step(&target).unwrap_or_else(|e| panic!("{e}"));
+        println!("{:.2} mm, {:.3} N: {log:.1?}", 1e3 * down, road_force(s).0[2]);
+        cycles.extend(log.iter().filter(|i| i.inner > 0).map(|i| i.inner));
+    }
+    cycles
+}
+
+#[test]
+fn it_finds_the_active_sets_solution() {
+    let elements = [44, 4, 5];
+    let model = wheel(elements, Element::Q1p0);
+    for mu in [0.0, 0.1, 1.0] {
+        let mut reference = simulation(&model, Scheme::Static, Some(road(mu)));
+        let mut relaxed =
+            simulation_with(&model, Scheme::Static, Some(road(mu)), corrected(elements), LIMITS);
+        press(&mut reference, &model);
+        let cycles = press(&mut relaxed, &model);
+        println!("mu = {mu}: {cycles:?}");
+        assert_eq!(relaxed.status, reference.status, "mu = {mu}");
+        let largest = reference.contact.iter().flatten().fold(0.0f64, |m, f| m.max(f.abs()));
+        for (a, b) in relaxed.contact.iter().zip(&reference.contact) {
+            for i in 0..3 {
+                // Both stop at residuals of 1e-9 of the internal forces' norm, some 10 times the largest force.
+                assert!((a[i] - b[i]).abs() < 1e-6 * largest, "mu = {mu}: {a:?} {b:?}");
+            }
+        }
+    }
+}
