@@ -26,6 +26,9 @@ pub struct Limits {
     pub iterations: usize,
 }
 
+/// Iterations in a row with a changing contact set after which it is taken to swing.
+const SWINGS: usize = 6;
+
 /// An iteration in the log.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Iteration {
@@ -119,8 +122,8 @@ impl Newton {
         let mut residual = problem.residual(inc, &at).map_err(inverted)?;
         let mut stiffness = vec![0.0; at.status.len()];
         let mut rounding = 0.0;
-        // Iterations since the contact set last changed.
-        let mut standing = 0;
+        // Iterations since the contact set last changed, and in a row in which it did.
+        let (mut standing, mut swinging) = (0, 0);
         for n in 0..=self.limits.iterations {
             let changes = if n == 0 { 0 } else { update(problem, inc, &mut at, &residual, &stiffness) };
             let violation = problem.violation(inc, &at, &residual, &stiffness);
@@ -154,13 +157,16 @@ impl Newton {
             // While the contact set changes residuals do not compare: any will do. Once it has stood for a while the
             // residual must fall, or slip directions may swing for ever.
             standing = if n == 0 || changes > 0 { 0 } else { standing + 1 };
+            swinging = if changes > 0 { swinging + 1 } else { 0 };
+            // Two sets that lead to each other: half a correction ends between them, where another one follows.
+            let first = if swinging >= SWINGS && swinging % 2 == 0 { 0.5 } else { 1.0 };
             let most = match standing {
                 0 => f64::INFINITY,
                 1..=3 => (2.0 * violation).max(asked),
                 _ => (0.95 * violation).max(asked),
             };
             (at, residual, entry.share) =
-                damped(problem, inc, &at, &correction, most, &stiffness).map_err(inverted)?;
+                damped(problem, inc, &at, &correction, [first, most], &stiffness).map_err(inverted)?;
             log.push(entry);
         }
         let last = log.last().expect("at least one iteration");
@@ -222,18 +228,18 @@ fn update(
     changes
 }
 
-/// Applies as much of a correction as the body can take: halved while an element inverts, or while the residual is
-/// more than `most` [N].
+/// Applies as much of a correction as the body can take, `first` at most: halved while an element inverts, or while the
+/// residual is more than `most` [N].
 fn damped(
     problem: &Problem<'_>,
     inc: &Increment,
     at: &Iterate,
     correction: &Correction,
-    most: f64,
+    [first, most]: [f64; 2],
     stiffness: &[f64],
 ) -> Result<(Iterate, Residual, f64), usize> {
     const SMALLEST: f64 = 1.0 / 64.0;
-    let mut share = 1.0;
+    let mut share = first;
     loop {
         let trial = moved(problem, at, correction, share);
         match problem.residual(inc, &trial) {

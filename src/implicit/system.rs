@@ -5,6 +5,7 @@ use super::contact::{Equations, Status};
 use super::krylov::LinearSolver;
 use super::matrix::{Block, BlockMatrix, dot, product, times, transposed};
 use super::problem::{Increment, Iterate, Problem, Residual};
+use super::relax::Linearised;
 use crate::physics::rim::{Coordinates, SPIN};
 use crate::physics::tensor::Vec3;
 
@@ -15,6 +16,9 @@ pub struct System {
     pub fixed: Vec<[bool; 3]>,
     /// Whether the matrix is symmetric up to round-off.
     pub symmetric: bool,
+    /// The same without what friction adds of the normal forces' rows, where there is any: its symmetric part is
+    /// positive, and makes a preconditioner.
+    pub near: Option<BlockMatrix>,
     /// Frame of every touching node (columns): its unknowns are components in it.
     pub columns: Vec<Option<Block>>,
     /// Values of the fixed unknowns.
@@ -81,11 +85,19 @@ impl System {
             }
             laws[n] = Some(law);
         }
+        let slips = |law: &Option<Equations>| law.is_some_and(|l| l.rows != transposed(&l.columns));
+        let near = laws.iter().any(slips).then(|| {
+            let framed = |l: Equations| Equations { rows: transposed(&l.columns), ..l };
+            let laws: Vec<_> = laws.iter().map(|l| l.map(framed)).collect();
+            let mut near = matrix.clone();
+            transform(&mut near, &laws);
+            near
+        });
         transform(&mut matrix, &laws);
         let mut border = Border::new(problem, inc, at, residual, &matrix);
         shift_known(&matrix, &known, &mut rhs);
         border.shift_known(&known);
-        let mut system = System { matrix, rhs, fixed, symmetric, columns, known, border, q };
+        let mut system = System { matrix, rhs, fixed, symmetric, near, columns, known, border, q };
         system.decouple();
         system
     }
@@ -94,15 +106,14 @@ impl System {
     /// that its law fixes are truncated, not moved. `laws` has every touching node's equations, their right-hand
     /// side included; `rhs` [N] is read elsewhere, `rim_rhs` [N, N m] belongs to the free rim components.
     pub fn truncated(
-        problem: &Problem<'_>,
-        inc: &Increment,
+        linearised: Linearised<'_>,
         at: &Iterate,
-        residual: &Residual,
-        mut matrix: BlockMatrix,
         laws: &[Option<Equations>],
         mut rhs: Vec<Vec3<f64>>,
         rim_rhs: Vec<f64>,
     ) -> System {
+        let Linearised { problem, inc, residual, matrix, .. } = linearised;
+        let mut matrix = matrix.clone();
         let count = at.x.len();
         let mut fixed: Vec<[bool; 3]> = problem.on_rim.iter().map(|&on| [on; 3]).collect();
         let mut columns = vec![None; count];
@@ -116,7 +127,8 @@ impl System {
         border.rhs = rim_rhs;
         let symmetric = problem.symmetric(inc);
         let known = vec![[0.0; 3]; count];
-        let mut system = System { matrix, rhs, fixed, symmetric, columns, known, border, q: [0.0; 6] };
+        let (near, q) = (None, [0.0; 6]);
+        let mut system = System { matrix, rhs, fixed, symmetric, near, columns, known, border, q };
         system.decouple();
         system
     }
@@ -130,6 +142,7 @@ impl System {
             rhs: zero.clone(),
             fixed: vec![[false; 3]; count],
             symmetric,
+            near: None,
             columns: vec![None; count],
             known: zero,
             border: Border::default(),
@@ -140,17 +153,10 @@ impl System {
     /// Unit rows and zero columns for the fixed unknowns. The unit is a stiffness, so that norms mean something.
     fn decouple(&mut self) {
         let unit = mean_diagonal(&self.matrix);
+        for matrix in [Some(&mut self.matrix), self.near.as_mut()].into_iter().flatten() {
+            uncouple(matrix, &self.fixed, unit);
+        }
         for i in 0..self.rhs.len() {
-            for e in self.matrix.start[i]..self.matrix.start[i + 1] {
-                let j = self.matrix.columns[e] as usize;
-                for a in 0..3 {
-                    for b in 0..3 {
-                        if self.fixed[i][a] || self.fixed[j][b] {
-                            self.matrix.blocks[e][a][b] = if i == j && a == b { unit } else { 0.0 };
-                        }
-                    }
-                }
-            }
             clear(&mut self.rhs[i], self.fixed[i]);
             for list in [&mut self.border.columns, &mut self.border.rows] {
                 list.iter_mut().for_each(|c| clear(&mut c[i], self.fixed[i]));
@@ -193,6 +199,22 @@ impl System {
             columns.map_or(y, |c| times(&c, y))
         });
         Some(Correction { dx: dx.collect(), q, iterations })
+    }
+}
+
+/// `unit` on the diagonal of the fixed unknowns, zero elsewhere in their rows and columns.
+fn uncouple(matrix: &mut BlockMatrix, fixed: &[[bool; 3]], unit: f64) {
+    for i in 0..fixed.len() {
+        for e in matrix.start[i]..matrix.start[i + 1] {
+            let j = matrix.columns[e] as usize;
+            for a in 0..3 {
+                for b in 0..3 {
+                    if fixed[i][a] || fixed[j][b] {
+                        matrix.blocks[e][a][b] = if i == j && a == b { unit } else { 0.0 };
+                    }
+                }
+            }
+        }
     }
 }
 

@@ -18,7 +18,7 @@ use crate::error::{Error, Result};
 use crate::physics::tensor::Vec3;
 use crate::scene::MeshSpec;
 use grid::Grid;
-use smoother::ElementBlocks;
+use smoother::{ElementBlocks, Way};
 use transfer::Transfer;
 
 /// Nodes of a mesh that is not coarsened any more: a direct solution costs less than a sweep over the finest mesh.
@@ -32,7 +32,6 @@ const SHIFT: f64 = 1e-8;
 /// A mesh below the finest, with the way to it from the next finer one.
 struct Level {
     transfer: Transfer,
-    hexes: Vec<[u32; 8]>,
     matrix: BlockMatrix,
     smoother: ElementBlocks,
 }
@@ -42,7 +41,6 @@ pub struct Multigrid {
     /// Finest first; the mesh that is solved on is not among them.
     levels: Vec<Level>,
     elements: Vec<[usize; 3]>,
-    hexes: Vec<[u32; 8]>,
     smoother: ElementBlocks,
     /// Where interpolation ends on the finest mesh: in frames, and not in fixed unknowns.
     ends: Vec<Option<Block>>,
@@ -58,7 +56,8 @@ impl Multigrid {
     /// what a direct solution can take.
     pub fn new(spec: &MeshSpec) -> Result<Multigrid> {
         let finest = Grid::new(spec);
-        let (hexes, mut elements) = (finest.hexes(), vec![finest.elements()]);
+        let mut elements = vec![finest.elements()];
+        let smoother = ElementBlocks::new(finest.hexes(), finest.elements());
         let mut levels = Vec::new();
         let mut fine = finest;
         while let Some(coarse) = fine.coarser().filter(|_| levels.is_empty() || fine.node_count() > COARSEST)
@@ -68,8 +67,7 @@ impl Multigrid {
             levels.push(Level {
                 transfer: Transfer::new(&fine, &coarse),
                 matrix: BlockMatrix::of_mesh(coarse.node_count(), &hexes),
-                hexes,
-                smoother: ElementBlocks::default(),
+                smoother: ElementBlocks::new(hexes, coarse.elements()),
             });
             fine = coarse;
         }
@@ -82,8 +80,7 @@ impl Multigrid {
         Ok(Multigrid {
             levels,
             elements,
-            hexes,
-            smoother: ElementBlocks::default(),
+            smoother,
             ends: Vec::new(),
             coarsest: Direct::default(),
             coarsest_system: None,
@@ -105,7 +102,7 @@ impl Multigrid {
             }
             return;
         }
-        self.smooth(depth, finest, b, x, false);
+        self.smooth(depth, finest, b, x, Way::Forward);
         let mut r = vec![[0.0; 3]; b.len()];
         self.matrix(depth, finest).multiply(x, &mut r);
         for (r, b) in r.iter_mut().zip(b) {
@@ -115,7 +112,7 @@ impl Multigrid {
         let mut coarse_x = vec![[0.0; 3]; coarse_b.len()];
         self.cycle(depth + 1, finest, &coarse_b, &mut coarse_x);
         self.levels[depth].transfer.add_prolonged(self.ends(depth), &coarse_x, x);
-        self.smooth(depth, finest, b, x, true);
+        self.smooth(depth, finest, b, x, Way::Backward);
     }
 
     fn matrix<'m>(&'m self, depth: usize, finest: &'m BlockMatrix) -> &'m BlockMatrix {
@@ -126,19 +123,9 @@ impl Multigrid {
         if depth == 0 { &self.ends } else { &[] }
     }
 
-    fn smooth(
-        &self,
-        depth: usize,
-        finest: &BlockMatrix,
-        b: &[Vec3<f64>],
-        x: &mut [Vec3<f64>],
-        backward: bool,
-    ) {
-        let (smoother, hexes) = match depth.checked_sub(1) {
-            None => (&self.smoother, &self.hexes),
-            Some(d) => (&self.levels[d].smoother, &self.levels[d].hexes),
-        };
-        smoother.sweep(hexes, self.matrix(depth, finest), b, x, backward);
+    fn smooth(&self, depth: usize, finest: &BlockMatrix, b: &[Vec3<f64>], x: &mut [Vec3<f64>], way: Way) {
+        let smoother = depth.checked_sub(1).map_or(&self.smoother, |d| &self.levels[d].smoother);
+        smoother.sweep(self.matrix(depth, finest), b, x, way);
     }
 }
 
@@ -159,7 +146,7 @@ fn ends(system: &System) -> Vec<Option<Block>> {
 
 impl Preconditioner for Multigrid {
     fn prepare(&mut self, system: &System) -> Option<()> {
-        self.smoother.prepare(&self.hexes, &system.matrix)?;
+        self.smoother.prepare(&system.matrix)?;
         self.ends = ends(system);
         for d in 0..self.levels.len() {
             let (finer, rest) = self.levels.split_at_mut(d);
@@ -175,7 +162,7 @@ impl Preconditioner for Multigrid {
             }
             if rest.len() > 1 {
                 let level = &mut rest[0];
-                level.smoother.prepare(&level.hexes, &level.matrix)?;
+                level.smoother.prepare(&level.matrix)?;
             }
         }
         let last = self.levels.last().expect("at least one");

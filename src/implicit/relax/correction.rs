@@ -94,8 +94,8 @@ impl Sweep<'_> {
         let rhs = left.iter().map(|r| r.map(|c| -c)).collect();
         let rim_left: Vec<f64> = (0..self.rim.dq.len()).map(|m| self.rim_left(m)).collect();
         let rim_rhs = rim_left.iter().map(|r| -r).collect();
-        let (problem, inc, matrix) = (self.problem, self.inc, self.matrix.clone());
-        let system = System::truncated(problem, inc, self.at, self.residual, matrix, &laws, rhs, rim_rhs);
+        let (problem, inc) = (self.problem, self.inc);
+        let system = System::truncated(self.linearised, self.at, &laws, rhs, rim_rhs);
         let solver = &mut *corrections.solver;
         if system.fixed == corrections.fixed {
             solver.prepare_near(&system)?;

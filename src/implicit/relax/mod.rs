@@ -44,6 +44,7 @@ struct Sweep<'a> {
     at: &'a Iterate,
     residual: &'a Residual,
     matrix: &'a BlockMatrix,
+    linearised: Linearised<'a>,
     inverses: Vec<Block>,
     /// Index among the surface nodes.
     surface_index: Vec<Option<u32>>,
@@ -115,6 +116,7 @@ impl<'a> Sweep<'a> {
             force: vec![[0.0; 3]; at.status.len()],
             status: at.status.clone(),
             residual,
+            linearised,
             omega: settings.omega,
             problem,
             inc,
