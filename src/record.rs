@@ -163,3 +163,24 @@ pub struct Tone {
     /// Standard deviation of the force that it makes, with its multiples [N].
     pub std: [f64; 3],
 }
+
+/// One iteration of Newton's method in an implicit stage: a row of `implicit.csv`.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct NewtonRow {
+    pub stage: String,
+    /// End and length of the increment that is being tried [s].
+    pub time_s: f64,
+    pub dt_s: f64,
+    /// What became of the increment: `converged`, or `failed` (it is cut, and tried again shorter).
+    pub increment: String,
+    /// From 0: the state that the increment starts from.
+    pub iteration: usize,
+    /// Residual before the iteration's correction, over the force scale (eq. 23).
+    pub residual: f64,
+    /// Nodes whose contact state changed before the correction.
+    pub contact_changes: usize,
+    /// Iterations of the linear solver, sweeps of the relaxation, or multigrid cycles.
+    pub inner_iterations: usize,
+    /// Share of the correction that was applied; 0 where there was none.
+    pub share: f64,
+}

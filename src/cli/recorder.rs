@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::progress::Display;
 use crate::output::RunWriter;
-use crate::record::{Sample, Snapshot};
+use crate::record::{NewtonRow, Sample, Snapshot};
 use crate::run::{Observer, Progress, Totals};
 use crate::{Error, Result};
 
@@ -72,6 +72,10 @@ impl Observer for Recorder<'_, '_> {
         self.snapshots += 1;
         self.output += start.elapsed();
         Ok(())
+    }
+
+    fn increment(&mut self, iterations: &[NewtonRow]) -> Result<()> {
+        self.writer.iterations(iterations)
     }
 
     fn interrupted(&self) -> bool {

@@ -17,7 +17,7 @@ use crate::engine::{Engine, Step, Window};
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::physics::rim;
-use crate::record::{ContactNoise, Sample, Snapshot};
+use crate::record::{ContactNoise, NewtonRow, Sample, Snapshot};
 use crate::scene::{Drive, InitialVelocity, MeshSpec, Method, Scene, Snapshots, Stage};
 use chatter::Chatter;
 use glam::DVec3;
@@ -44,6 +44,10 @@ pub trait Observer {
     fn snapshot(&mut self, snapshot: &Snapshot, stage: &str) -> Result<()>;
     /// A line for the log: iterations of an implicit increment, and the like.
     fn note(&mut self, _line: &str) -> Result<()> {
+        Ok(())
+    }
+    /// The iterations of an implicit increment, converged or not.
+    fn increment(&mut self, _iterations: &[NewtonRow]) -> Result<()> {
         Ok(())
     }
     /// Asked after every window: end here, keeping everything.

@@ -229,8 +229,8 @@ pub enum ImplicitSolver {
     /// Semi-smooth Newton.
     ActiveSet(Linear),
     /// The paper's projected relaxation (eq. 24): omega, epsilon_GS relative to the force scale (eq. 25), and the most
-    /// sweeps.
-    Relaxation { omega: f64, tolerance: f64, sweeps: usize },
+    /// sweeps. `corrections`: what solves the linear equations between the sweeps, if anything does.
+    Relaxation { omega: f64, tolerance: f64, sweeps: usize, corrections: Option<Linear> },
 }
 
 /// Solvers of linear equations.

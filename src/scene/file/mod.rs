@@ -75,6 +75,8 @@
 //! linear = "auto"                     # default | "direct" | "multigrid" | "block-jacobi"; only "active-set"
 //! omega = 1.0                         # default, 0..2; only "relaxation"
 //! relaxation_tolerance = 1e-9         # default; residual over internal force (eq. 25); only "relaxation"
+//! corrections = "none"                # default | "auto" | "multigrid" | "direct" | "block-jacobi": linear corrections
+//!                                     # between the sweeps, truncated where nodes touch; only "relaxation"
 //! sweeps = 100000                     # default; the most of one relaxation; only "relaxation"
 //!
 //! [stage.rim]                         # needs [rim]; a component that is not named holds where it is
