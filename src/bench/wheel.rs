@@ -105,8 +105,9 @@ impl Roll {
     }
 
     /// Error of `x` after `n` steps against the reference engine's positions, relative to the deformation, that is,
-    /// to what is left of the displacement without the rim's rigid motion. L2 over all nodes.
-    pub fn error(&self, model: &Model, n: u64, x: &State, reference: &State) -> f64 {
+    /// to what is left of the displacement without the rim's rigid motion; and that deformation's root mean
+    /// square [m]. L2 over all nodes.
+    pub fn error(&self, model: &Model, n: u64, x: &State, reference: &State) -> (f64, f64) {
         let q = self.rim(n);
         let (rotation, axle) = (rim::rotation(&q), rim::axle(&q));
         let origin = DVec3::from(self.origin);
@@ -117,6 +118,6 @@ impl Roll {
             difference += (x - r).length_squared();
             deformation += (r - rigid).length_squared();
         }
-        (difference / deformation).sqrt()
+        ((difference / deformation).sqrt(), (deformation / x.x.len() as f64).sqrt())
     }
 }

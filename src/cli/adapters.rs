@@ -5,7 +5,7 @@ use std::fmt::Write;
 use clap::Args;
 use serde::Serialize;
 
-use super::choose::usable;
+use super::choose::{LARGE, usable};
 use super::format::bytes;
 use crate::Result;
 use crate::gpu::{AdapterReport, adapters};
@@ -33,7 +33,11 @@ pub fn execute(args: &AdaptersArgs) -> Result<()> {
 
 fn auto(adapters: &[AdapterReport]) -> String {
     match usable(adapters, None) {
-        Some(a) if !a.software => format!("{} ({})", a.name, a.backend),
+        Some(a) if !a.software => format!(
+            "the faster of the CPU engine and {} ({}), tried on the scene; the CPU engine at once if that run is \
+             short, the GPU at once from {} elements on",
+            a.name, a.backend, LARGE
+        ),
         Some(a) => format!(
             "the faster of the CPU engine and the software adapter {}, tried on the scene; the CPU engine at once \
              if that run is short",

@@ -14,7 +14,7 @@ use crate::{Error, Result};
 /// Engines a user can ask for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum EngineChoice {
-    /// A real GPU if there is one, else the faster of a software adapter and the CPU
+    /// The faster of the CPU and the best adapter, tried on the scene; large meshes take a real GPU at once
     #[default]
     Auto,
     /// The GPU engine, on a software adapter if there is no other
@@ -167,9 +167,15 @@ fn on_gpu(gpu: &Gpu, precision: Precision, model: &Model, scene: &Scene) -> Resu
     Ok(Box::new(GpuEngine::new(gpu, model, scene, precision == Precision::F32Plus)?))
 }
 
-/// Runs that the CPU engine ends sooner than this [s] are not worth a try on a software adapter: to translate the
-/// kernels for one takes it 4 to 8 s of the same cores.
-const SHORT: f64 = 10.0;
+/// Runs that the CPU engine ends sooner than this [s] are not worth a try: translating the kernels takes a software
+/// adapter 4 to 8 s of the same cores, a real GPU's driver about one.
+pub fn worth_a_try(software: bool) -> f64 {
+    if software { 10.0 } else { 1.0 }
+}
+
+/// From here on a real GPU is taken without a race, which would cost more than it could save: whatever has a
+/// GPU's bandwidth beats any processor on a mesh that no cache holds.
+pub const LARGE: usize = 500_000;
 
 /// Both engines may run the scene.
 struct Competition<'a> {
@@ -185,8 +191,11 @@ impl Competition<'_> {
         let reports = adapters();
         let name = self.args.adapter.as_deref();
         match usable(&reports, name) {
-            Some(report) if report.software => self.measured(&report.name),
-            Some(report) => self.gpu_or_why_not(&report.name),
+            // Who names a real GPU has chosen.
+            Some(report) if !report.software && (name.is_some() || self.model.element_count() >= LARGE) => {
+                self.gpu_or_why_not(&report.name)
+            }
+            Some(report) => self.measured(&report.name, report.software),
             // Who names an adapter does not want the CPU instead: the error says what there is.
             None if name.is_some() => {
                 let engine = gpu(name, self.on_gpu, self.model, self.scene)?;
@@ -207,24 +216,31 @@ impl Competition<'_> {
         Ok((gpu, engine))
     }
 
-    /// A real GPU is taken without a race, unless it cannot be had.
+    /// A real GPU without a race, unless it cannot be had.
     fn gpu_or_why_not(&self, name: &str) -> Result<Chosen> {
         match self.open(name) {
-            Ok((_, engine)) => Ok(Chosen { engine, reason: format!("{name} is a GPU") }),
+            Ok((_, engine)) => Ok(Chosen { engine, reason: self.why_at_once(name) }),
             Err(error) if self.args.adapter.is_some() => Err(error),
             Err(error) => self.cpu(&format!("{name} could not be used: {error}")),
         }
     }
 
-    /// The faster of the CPU engine and a software adapter.
-    fn measured(&self, name: &str) -> Result<Chosen> {
+    fn why_at_once(&self, name: &str) -> String {
+        match self.args.adapter {
+            Some(_) => format!("{name} is a GPU, named with --adapter"),
+            None => format!("{name} is a GPU, and {LARGE} elements or more are not tried on the CPU"),
+        }
+    }
+
+    /// The faster of the CPU engine and an adapter.
+    fn measured(&self, name: &str, software: bool) -> Result<Chosen> {
         let steps = Steps::of(self.scene, self.model)?;
         let rate =
             |engine: &mut dyn Engine| estimate::rate(engine, self.model, self.scene, steps.element_bound_s);
         let cpu_rate = rate(&mut *self.cpu("")?.engine)?;
         let cpu_text = format!("cpu {}: {}", self.on_cpu.name(), updates(cpu_rate));
         let seconds = steps.seconds(self.model, cpu_rate);
-        if seconds < SHORT {
+        if seconds < worth_a_try(software) {
             let time = duration(seconds);
             return self.cpu(&format!("{cpu_text}, about {time} in all: too short to try {name}"));
         }

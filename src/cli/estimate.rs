@@ -47,8 +47,9 @@ impl Steps {
 pub fn rate(engine: &mut dyn Engine, model: &Model, scene: &Scene, element_bound: f64) -> Result<f64> {
     /// A batch as long as this is measured well enough.
     const LONG_ENOUGH: Duration = Duration::from_millis(100);
-    /// More steps are never taken: a small scene's rate is known by then, and its body has hardly moved.
-    const MOST: usize = 512;
+    /// More steps are never taken: a small scene's rate is known by then, a GPU's too, which takes hundreds of steps a
+    /// submission, and the body has hardly moved.
+    const MOST: usize = 2_048;
     // Stable whatever safety the scene asks for.
     let dt = 0.5 * element_bound;
     let [x, y, z] = model.mesh.axle;
