@@ -25,6 +25,11 @@ pub fn listen_for_interrupts() -> Result<()> {
     })
 }
 
+/// Whether one has come.
+pub fn interrupted() -> bool {
+    STOP.load(Ordering::SeqCst)
+}
+
 /// The observer of a run.
 pub struct Recorder<'w, 'm> {
     writer: &'w mut RunWriter<'m>,
@@ -39,9 +44,9 @@ pub struct Recorder<'w, 'm> {
 }
 
 impl<'w, 'm> Recorder<'w, 'm> {
-    pub fn new(writer: &'w mut RunWriter<'m>, elements: usize) -> Self {
+    pub fn new(writer: &'w mut RunWriter<'m>, display: Display) -> Self {
         let (history, totals, output) = (Vec::new(), Totals::default(), Duration::ZERO);
-        Recorder { writer, display: Display::new(elements), history, snapshots: 0, totals, output }
+        Recorder { writer, display, history, snapshots: 0, totals, output }
     }
 
     /// Ends the display.
@@ -74,6 +79,6 @@ impl Observer for Recorder<'_, '_> {
     }
 
     fn interrupted(&self) -> bool {
-        STOP.load(Ordering::SeqCst)
+        interrupted()
     }
 }

@@ -22,11 +22,15 @@ pub mod contact;
 pub(crate) mod folder;
 mod pvd;
 pub mod read;
+pub mod rolling;
+pub mod scatter;
 pub mod snapshot;
 pub mod stages;
 pub mod summary;
 pub mod vtu;
 mod writer;
 
+pub use rolling::Rolling;
+pub use scatter::{ContactScatter, Verdict};
 pub use summary::Summary;
 pub use writer::RunWriter;

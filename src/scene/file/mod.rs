@@ -87,12 +87,16 @@
 //! camber = { angle = "2 deg", ramp = "20 ms" }    # about the new x; the same
 //! spin = { velocity = "70 rad/s" }                # about the axle; or angle; or free:
 //! spin = { moment = "0 N m", inertia = "1e-5 kg m2", ramp = "0 s" }
+//! spin = { slip = 0.05, free_radius = "38.9 mm", ramp = "0 s" }   # longitudinal: omega = (1 + slip) v / free_radius;
+//!                                     # "measured": in the last stage before that spins freely under no moment
 //!
 //! [output]
 //! sample = "1 ms"                     # length of a history window, > 0, no longer than any stage
 //! snapshots = "10 ms"                 # whole fields: default "stage-ends" | "none" | every so long
 //! pictures = ["body:von-mises", "footprint"]   # of every snapshot; default none; body: displacement, velocity,
-//!                                     # contact-force, pressure, volume-ratio, von-mises
+//!                                     # contact-force, pressure, volume-ratio, von-mises, friction-energy
+//! chatter_limit = 0.05                # default; scatter of the contact force from step to step, over the mean normal
+//!                                     # force, above which the summary names it
 //! ```
 
 mod body;
@@ -127,7 +131,7 @@ const SECTIONS: [&str; 11] = [
 ];
 
 const LATER: [Later; 5] = [
-    ("sweep", "run the scene once per value with --set"),
+    ("sweep", "run hexroll sweep SCENE --over KEY=VALUES, or the scene once per value with --set"),
     ("checkpoint", "run the scene in one piece"),
     ("restart", "run the scene in one piece"),
     ("bodies", "describe one [body]"),
@@ -171,7 +175,7 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
     let rim = table.get("rim").map(|item| world::rim(&item, &body.mesh)).transpose()?;
     let road = table.get("road").map(|item| world::road(&item)).transpose()?;
     let friction = table.get("friction").map(|item| world::friction(&item, road.is_some())).transpose()?;
-    let stages = stage::stages(&table.section("stage", "[[stage]]")?, rim.is_some())?;
+    let stages = stage::stages(&table.section("stage", "[[stage]]")?, rim.is_some(), road.as_ref())?;
     let output = output::output(&table.section("output", "[output]")?, &stages, road.is_some())?;
     Ok(Scene {
         file: file.into(),
