@@ -1,6 +1,7 @@
 //! Solution by sparse factors: Cholesky's where the matrix is symmetric. Where slip or viscosity makes it not, Cholesky's
 //! factors of its symmetric part precondition GMRES, which is ten times as fast on the paper's mesh as LU factors; those
-//! are taken where the symmetric part is not positive, or GMRES takes too long.
+//! are taken where the symmetric part is not positive, or GMRES takes too long. While the same unknowns are fixed the
+//! factors of an older matrix go on preconditioning, for as long as they do it well.
 
 use super::krylov::{Krylov, LinearSolver, Preconditioner};
 use super::matrix::BlockMatrix;
@@ -14,6 +15,8 @@ use faer::{Col, Side};
 /// Residual that GMRES goes down to, relative, and the iterations after which LU factors would have been faster.
 const TOLERANCE: f64 = 1e-12;
 const MOST: usize = 60;
+/// Iterations after which new Cholesky factors would have been faster than those of an older matrix.
+const MOST_OF_OLD: usize = 14;
 
 enum Factors {
     Cholesky(Factored<Llt<usize, f64>>),
@@ -26,11 +29,49 @@ enum Factors {
 #[derive(Default)]
 pub struct Direct {
     factors: Option<Factors>,
+    /// Unknowns that were fixed when the factors were found.
+    fixed: Vec<[bool; 3]>,
+    /// Whether the factors belong to an older matrix.
+    old: bool,
 }
 
 impl LinearSolver for Direct {
     fn prepare(&mut self, system: &System) -> Option<()> {
+        let half = matches!(self.factors, Some(Factors::Half(_)));
+        self.old = half && !system.symmetric && self.fixed == system.fixed;
+        if self.old { Some(()) } else { self.factorise(system) }
+    }
+
+    fn solve(&mut self, system: &System, b: &[Vec3<f64>]) -> Option<(Vec<Vec3<f64>>, usize)> {
+        let mut spent = 0;
+        if let (true, Some(Factors::Half(krylov))) = (self.old, self.factors.as_mut()) {
+            krylov.most = MOST_OF_OLD;
+            if let Some(solved) = krylov.solve(system, b) {
+                return Some(solved);
+            }
+            spent = MOST_OF_OLD;
+            self.old = false;
+            self.factorise(system)?;
+        }
+        let (y, taken) = self.solve_with_own(system, b)?;
+        Some((y, spent + taken))
+    }
+
+    /// Of the matrix handed over: the library does not say what its factors hold.
+    fn bytes(&self) -> usize {
+        match &self.factors {
+            None => 0,
+            Some(Factors::Cholesky(f)) => f.bytes,
+            Some(Factors::Half(f)) => f.bytes(),
+            Some(Factors::Lu(f)) => f.bytes,
+        }
+    }
+}
+
+impl Direct {
+    fn factorise(&mut self, system: &System) -> Option<()> {
         self.factors = None;
+        self.fixed.clone_from(&system.fixed);
         let mut half = SymmetricPart::default();
         self.factors = Some(match (half.prepare(system), system.symmetric) {
             (Some(()), true) => Factors::Cholesky(half.factors?),
@@ -42,7 +83,7 @@ impl LinearSolver for Direct {
         Some(())
     }
 
-    fn solve(&mut self, system: &System, b: &[Vec3<f64>]) -> Option<(Vec<Vec3<f64>>, usize)> {
+    fn solve_with_own(&mut self, system: &System, b: &[Vec3<f64>]) -> Option<(Vec<Vec3<f64>>, usize)> {
         let once = |y: Vec<Vec3<f64>>| y.iter().flatten().all(|c| c.is_finite()).then_some((y, 1));
         match self.factors.as_mut()? {
             Factors::Cholesky(factors) => return once(factors.solve(b)),
@@ -57,16 +98,6 @@ impl LinearSolver for Direct {
         let y = factors.solve(b);
         self.factors = Some(Factors::Lu(factors));
         once(y)
-    }
-
-    /// Of the matrix handed over: the library does not say what its factors hold.
-    fn bytes(&self) -> usize {
-        match &self.factors {
-            None => 0,
-            Some(Factors::Cholesky(f)) => f.bytes,
-            Some(Factors::Half(f)) => f.bytes(),
-            Some(Factors::Lu(f)) => f.bytes,
-        }
     }
 }
 
