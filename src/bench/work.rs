@@ -61,7 +61,7 @@ fn corners<T: Real>(nodes: &[[f64; 3]], hex: &[u32; 8]) -> Corners<Counted<T>> {
     hex.map(|n| nodes[n as usize].map(Counted::from_f64))
 }
 
-/// Operations of one node without contact: the sum over its `corners` slots, the new velocity and the new position.
+/// Operations of one node without contact: the sum over its `corners` forces, the new velocity and the new position.
 /// Works and impulses are left out: they are our book-keeping, not the scheme.
 pub fn node_operations<T: Real>(corners: usize) -> Operations {
     let number = Counted::<T>::from_f64;
@@ -85,23 +85,18 @@ fn step_operations<T: Real>(model: &Model) -> [f64; 2] {
     [element * elements, bare * nodes + (one - bare) * 8.0 * elements]
 }
 
-/// The passes of a step of the CPU engine in precision `T`: the element pass reads positions (and, with viscosity,
-/// velocities) and fills the corner slots; the node pass reads slots, positions, velocities, mass and inverse mass,
-/// and writes positions and velocities.
+/// The passes of a step of the CPU engine in precision `T`: one, since a node moves while the forces of its elements are
+/// in the cache. It reads and writes positions and velocities, writes and reads nodal forces, and reads mass and inverse
+/// mass, each once.
 pub fn cpu_passes<T: Real>(model: &Model) -> Vec<Pass> {
-    let size = size_of::<T>() as f64;
-    let (elements, nodes) = (model.element_count() as f64, model.node_count() as f64);
+    let nodes = model.node_count() as f64;
     let [element_flops, node_flops] = step_operations::<T>(model);
-    let slots = 24.0 * size * elements;
-    let vector = 3.0 * size * nodes;
-    let read = if model.viscosity.is_some() { 2.0 * vector } else { vector };
-    vec![
-        Pass { name: "element".into(), bytes: read + slots, flops: element_flops },
-        Pass { name: "node".into(), bytes: slots + 4.0 * vector + 2.0 * size * nodes, flops: node_flops },
-    ]
+    let bytes = size_of::<T>() as f64 * (3.0 * 6.0 + 2.0) * nodes;
+    vec![Pass { name: "step".into(), bytes, flops: element_flops + node_flops }]
 }
 
-/// Size of the arrays that a step of the CPU engine goes through [bytes]: corner slots, positions, velocities, masses.
+/// Size of the arrays that a step of the CPU engine goes through [bytes]: positions, velocities, masses, and the forces
+/// of two rows of groups on most nodes.
 pub fn cpu_arrays<T: Real>(model: &Model) -> f64 {
-    size_of::<T>() as f64 * (24.0 * model.element_count() as f64 + 8.0 * model.node_count() as f64)
+    size_of::<T>() as f64 * (3.0 * 4.0 + 2.0) * model.node_count() as f64
 }

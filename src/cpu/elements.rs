@@ -87,7 +87,7 @@ impl<T: Real> Copied<T> {
                 for d in 0..3 {
                     unsafe {
                         let to = view.f[d].add(slot as usize);
-                        *to = *to + self.f[d][c * width + lane];
+                        *to += self.f[d][c * width + lane];
                     }
                 }
             }
@@ -255,7 +255,7 @@ unsafe fn end_of_row<N: Lanes>(row: &Row, view: &View<N::Real>, carry: &[Vec3<N>
             unsafe {
                 if row.closed {
                     let start = view.f[d].add(row.f[k]);
-                    *start = *start + carry[k][d].lane((all - 1) % N::WIDTH);
+                    *start += carry[k][d].lane((all - 1) % N::WIDTH);
                 } else if all.is_multiple_of(N::WIDTH) {
                     let mut last = N::zero().moved_up(carry[k][d]);
                     if row.add[k] {

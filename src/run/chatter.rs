@@ -265,7 +265,7 @@ mod tests {
                 dtm: DT,
                 force: [0.0, -2.0, force(start + (n as f64 + 0.5) * DT, 77 * w + n)],
                 touching: 20,
-                changes: u32::from(n % 10 == 0),
+                changes: u32::from(n.is_multiple_of(10)),
             };
             let window = Window { step_contact: (0..77).map(step).collect(), ..Window::default() };
             chatter.add(start, start + length, [OMEGA * start, OMEGA * (start + length)], &window);

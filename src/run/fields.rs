@@ -66,6 +66,7 @@ fn quarters(
 }
 
 /// A snapshot at the end of a window.
+#[allow(clippy::too_many_arguments)] // what a snapshot is made of
 pub fn snapshot(
     model: &Model,
     road: Option<&Road>,

@@ -135,9 +135,7 @@ impl<T: Real, const N: usize> Lanes for Array<T, N> {
     fn moved_up(self, before: Self) -> Self {
         let mut moved = self.0;
         moved[0] = before.0[N - 1];
-        for i in 1..N {
-            moved[i] = self.0[i - 1];
-        }
+        moved[1..].copy_from_slice(&self.0[..N - 1]);
         Array(moved)
     }
 
