@@ -1,13 +1,12 @@
 //! Multigrid inside the projected relaxation: the active set's solution, in iterations that hardly depend on the mesh.
 
 use super::fixtures::*;
-use hexroll::implicit::contact::Status;
 use hexroll::implicit::krylov::Krylov;
 use hexroll::implicit::multigrid::Multigrid;
 use hexroll::implicit::relax::{Corrections, Relaxation};
-use hexroll::implicit::{Inner, Limits, Scheme, Simulation, Target};
+use hexroll::implicit::{Inner, Limits, Scheme, Simulation};
 use hexroll::model::Model;
-use hexroll::scene::{Body, Element, MeshSpec, NodeSet};
+use hexroll::scene::{Element, MeshSpec};
 
 const LIMITS: Limits = Limits { tolerance: 1e-9, iterations: 30 };
 
