@@ -4,6 +4,7 @@
 #![allow(non_snake_case)] // F, J, W, N: the field's own symbols
 #![allow(rustdoc::broken_intra_doc_links)] // units are written [m], [N s]
 
+pub mod bench;
 pub mod cli;
 pub mod cpu;
 pub mod engine;

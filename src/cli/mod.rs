@@ -5,6 +5,7 @@
 
 mod adapters;
 mod batch;
+mod bench;
 mod check;
 pub mod choose;
 mod compare;
@@ -79,6 +80,9 @@ enum Command {
     Compare(compare::CompareArgs),
     /// List the GPU adapters, their limits, and the one that `--engine auto` takes
     Adapters(adapters::AdaptersArgs),
+    /// Time every engine against the machine's measured limits
+    #[command(after_help = bench::HELP)]
+    Bench(bench::BenchArgs),
 }
 
 impl Cli {
@@ -110,6 +114,7 @@ impl Cli {
             Command::Sweep(args) => sweep::execute(&args),
             Command::Compare(args) => compare::execute(&args),
             Command::Adapters(args) => adapters::execute(&args),
+            Command::Bench(args) => bench::execute(&args),
         }
     }
 }

@@ -7,7 +7,7 @@
 mod body;
 mod camera;
 pub(crate) mod canvas;
-mod colour;
+pub(crate) mod colour;
 mod contact;
 mod field;
 mod footprint;

@@ -6,7 +6,7 @@ use crate::model::Model;
 use crate::model::mesh::Mesh;
 use crate::physics::element::hex8;
 use crate::physics::rim;
-use crate::physics::tensor::{add, cross, det, dot, scale, sub};
+use crate::physics::tensor::{add, cross, dot, scale, sub};
 use crate::record::{ContactNode, ContactState, Snapshot};
 use crate::scene::Road;
 
@@ -82,8 +82,7 @@ pub fn snapshot(
     for (hex, &class) in model.mesh.hexes.iter().zip(&model.class_of) {
         let corners = hex.map(|n| state.x[n as usize]);
         let f = element_forces(model, class as usize, &corners, &[[0.0; 3]; 8]);
-        let columns = hex8::gradients(&corners);
-        let volume: f64 = (0..8).map(|q| det(&hex8::at(&columns, q))).sum();
+        let volume = hex8::volume(&corners);
         let sigma = mean_stress(&corners, &f, volume);
         let p = -(sigma[0][0] + sigma[1][1] + sigma[2][2]) / 3.0;
         let s = |i: usize, j: usize| sigma[i][j] + if i == j { p } else { 0.0 };
