@@ -55,6 +55,8 @@ pub struct NodeBatch {
     pub first: usize,
     pub count: usize,
     pub kind: NodeKind,
+    /// Held components, the same in every lane: bit d for component d.
+    pub held: u8,
     /// (corner, element of lane 0), lane l gathering from element + l; `None`: the lanes have nothing in common.
     pub runs: Option<Vec<(usize, usize)>>,
 }
@@ -65,13 +67,14 @@ pub fn node_batches(model: &Model, road: bool, width: usize) -> Vec<NodeBatch> {
     let mesh = &model.mesh;
     let surface = |n: usize| road && mesh.surface.binary_search(&(n as u32)).is_ok();
     let rim = |n: usize| mesh.rim.binary_search(&(n as u32)).ok();
+    let held = |n: usize| mesh.held.get(n).copied().unwrap_or(0);
     let row = |n: usize| &model.corners[model.corner_start[n] as usize..model.corner_start[n + 1] as usize];
     let mut batches = Vec::new();
     let mut first = 0;
     while first < model.node_count() {
         let most = width.min(model.node_count() - first);
         let same_role = |n: &usize| match (rim(first), rim(*n)) {
-            (None, None) => true,
+            (None, None) => held(first) == held(*n),
             (Some(a), Some(b)) => b - a == n - first,
             _ => false,
         };
@@ -87,7 +90,7 @@ pub fn node_batches(model: &Model, road: bool, width: usize) -> Vec<NodeBatch> {
             None => NodeKind::Interior,
         };
         let runs = structured.then(|| a.iter().map(|s| ((s & 7) as usize, (s >> 3) as usize)).collect());
-        batches.push(NodeBatch { first, count, kind, runs });
+        batches.push(NodeBatch { first, count, kind, held: held(first), runs });
         first += count;
     }
     batches

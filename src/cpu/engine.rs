@@ -7,8 +7,9 @@ use super::state::{Field, PADDING, View, slot_sizes};
 use super::team::SpinBarrier;
 use crate::engine::{Engine, EngineInfo, Probe, StageSetup, State, Step, SurfaceSum, Window};
 use crate::error::{Error, Result};
-use crate::model::{Model, frame};
-use crate::physics::friction::Coulomb;
+use crate::model::mesh::Mesh;
+use crate::model::{Model, areas, frame};
+use crate::physics::friction::AnyFriction;
 use crate::physics::lanes::Level;
 use crate::physics::node::{Loads, StepSize};
 use crate::physics::rim::{self, Coordinates};
@@ -25,8 +26,10 @@ pub struct CpuEngine<T> {
     nodes: Nodes<T>,
     rim_nodes: Vec<usize>,
     road: Option<Road>,
-    friction: Option<Coulomb<T>>,
+    friction: Option<AnyFriction<T>>,
     gravity: Vec3<T>,
+    /// For the areas of surface nodes, where friction looks at pressure.
+    mesh: Option<Mesh>,
     setup: StageSetup,
     rim: RimState,
     threads: usize,
@@ -90,12 +93,19 @@ where
                 corners: model.corners.clone(),
                 surface_of: surface_index(model.node_count(), &surface_nodes),
                 rim_arms: Field::new(arms).components,
+                inverse_area: match (scene.friction, &scene.road) {
+                    (Some(law), Some(road)) if law.needs_area() => {
+                        inverse_areas(mesh, |n| mesh.nodes[n as usize], road)
+                    }
+                    _ => Vec::new(),
+                },
                 level,
             },
             rim_nodes: mesh.rim.iter().map(|&n| n as usize).collect(),
             rim,
             road: scene.road,
-            friction: scene.friction.map(|Friction::Coulomb { mu }| Coulomb { mu: T::from_f64(mu) }),
+            friction: scene.friction.as_ref().map(AnyFriction::new),
+            mesh: scene.friction.filter(Friction::needs_area).map(|_| mesh.clone()),
             gravity: vec3(scene.gravity),
             setup: StageSetup::default(),
             threads,
@@ -174,6 +184,13 @@ where
         for d in (0..3).filter(|&d| shift[d] != 0.0) {
             self.frame[d] += shift[d];
             self.x.components[d].iter_mut().for_each(|x| *x -= T::from_f64(shift[d]));
+        }
+    }
+
+    /// Areas of the surface nodes as they are now.
+    fn refresh_areas(&mut self) {
+        if let (Some(mesh), Some(road)) = (&self.mesh, &self.road) {
+            self.nodes.inverse_area = inverse_areas(mesh, |n| self.absolute(n as usize), road);
         }
     }
 
@@ -314,6 +331,10 @@ impl<T> Pointer<T> {
     }
 }
 
+fn inverse_areas<T: Real>(mesh: &Mesh, x: impl Fn(u32) -> [f64; 3], road: &Road) -> Vec<T> {
+    areas::inverse_areas(mesh, x, road).into_iter().map(T::from_f64).collect()
+}
+
 fn sub64(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|d| a[d] - b[d])
 }
@@ -425,6 +446,7 @@ where
             min_jacobian: energies.min_jacobian,
         };
         self.follow();
+        self.refresh_areas();
         Ok(window)
     }
 

@@ -5,7 +5,7 @@ use super::batches::{NodeBatch, NodeKind};
 use super::state::View;
 use crate::engine::{SurfaceSum, Works};
 use crate::physics::contact::{self, Touch};
-use crate::physics::friction::Coulomb;
+use crate::physics::friction::AnyFriction;
 use crate::physics::lanes::{Array, Lanes, Level};
 use crate::physics::node::{self, Loads, Prediction, StepSize};
 use crate::physics::road::Plane;
@@ -29,6 +29,8 @@ pub struct Nodes<T> {
     pub surface_of: Vec<u32>,
     /// Rim nodes' positions relative to the axle in the reference orientation, by component.
     pub rim_arms: [Vec<T>; 3],
+    /// One over the area of each surface node [1/m2], as of the last sample; empty unless friction looks at pressure.
+    pub inverse_area: Vec<T>,
     pub level: Level,
 }
 
@@ -57,7 +59,7 @@ pub struct Conditions<T> {
     pub step: StepSize<T>,
     pub loads: Loads<T>,
     pub road: Option<Plane<T>>,
-    pub friction: Option<Coulomb<T>>,
+    pub friction: Option<AnyFriction<T>>,
     /// Axle at the end of the step in the engine's frame and its mean velocity, rotation at the end and its mean rate
     /// (columns), axle at the start.
     pub axle: Vec3<T>,
@@ -178,6 +180,21 @@ unsafe fn gather_batch<N: Lanes>(nodes: &Nodes<N::Real>, batch: &NodeBatch, view
     unsafe { [N::load(lanes[0].as_ptr(), 0), N::load(lanes[1].as_ptr(), 0), N::load(lanes[2].as_ptr(), 0)] }
 }
 
+/// A force without its held components, which whatever holds them takes.
+#[inline(always)]
+fn moving<N: Lanes>(held: u8, f: Vec3<N>) -> Vec3<N> {
+    if held == 0 {
+        return f;
+    }
+    let mut f = f;
+    for d in 0..3 {
+        if held >> d & 1 == 1 {
+            f[d] = N::zero();
+        }
+    }
+    f
+}
+
 /// New velocity and position of the lanes.
 #[derive(Clone, Copy)]
 struct Moved<N> {
@@ -218,7 +235,13 @@ unsafe fn pass_in<N: Lanes, const PROBE: bool>(
         let end = ((chunk + 1) * CHUNK).min(nodes.batches.len());
         for batch in &nodes.batches[chunk * CHUNK..end] {
             unsafe {
-                let f_int = gather_batch::<N>(nodes, batch, view);
+                let whole = gather_batch::<N>(nodes, batch, view);
+                let f_int = moving::<N>(batch.held, whole);
+                if PROBE && batch.held != 0 {
+                    // What holds a node pushes back, as a road does: it belongs to the scale of forces.
+                    let one = valid::<N>(batch.count);
+                    sums.internal_force2 += one * (dot(whole, whole) - dot(f_int, f_int));
+                }
                 let x = load3::<N>(&view.x, batch.first, batch.count);
                 let v = load3::<N>(&view.v, batch.first, batch.count);
                 let mass = N::load(nodes.mass.as_ptr(), batch.first);
@@ -293,16 +316,19 @@ unsafe fn touch<N: Lanes, const PROBE: bool>(
             continue;
         }
         let old = [x[0].lane(lane), x[1].lane(lane), x[2].lane(lane)];
+        let before = [v[0].lane(lane), v[1].lane(lane), v[2].lane(lane)];
         let v_star = [moved[3][lane], moved[4][lane], moved[5][lane]];
         let inertia = node::inertia(&c.loads, c.step, nodes.mass[n]);
-        let Some(t) = contact::project(road, c.friction.as_ref(), inertia, c.step, old, v_star) else {
+        let area = || nodes.inverse_area.get(k as usize).copied().unwrap_or(<N::Real as Scalar>::zero());
+        let Some(t) =
+            contact::project_any(road, c.friction.as_ref(), area, inertia, c.step, old, before, v_star)
+        else {
             continue;
         };
         for d in 0..3 {
             moved[d][lane] = t.x[d];
             moved[3 + d][lane] = t.v[d];
         }
-        let before = [v[0].lane(lane), v[1].lane(lane), v[2].lane(lane)];
         unsafe { book_touch::<N::Real, PROBE>(c, k as usize, &t, before, books, chunk) };
     }
     let at = |r: usize| unsafe { N::load(moved[r].as_ptr(), 0) };

@@ -43,6 +43,8 @@ pub trait Real: Scalar + PartialOrd {
     const EPSILON: f64;
     fn to_f64(self) -> f64;
     fn sqrt(self) -> Self;
+    /// e^self; in friction laws only.
+    fn exp(self) -> Self;
     /// self^(-1/3) within 4 %, and the Newton steps that make it exact (each doubles the digits).
     fn recip_cbrt_guess(self) -> Self;
     const CBRT_STEPS: usize;
@@ -82,6 +84,10 @@ macro_rules! real {
             #[inline(always)]
             fn sqrt(self) -> Self {
                 <$type>::sqrt(self)
+            }
+            #[inline(always)]
+            fn exp(self) -> Self {
+                <$type>::exp(self)
             }
             #[inline(always)]
             fn recip_cbrt_guess(self) -> Self {

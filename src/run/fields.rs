@@ -3,31 +3,12 @@
 use crate::cpu::element_forces;
 use crate::engine::{State, Window};
 use crate::model::Model;
-use crate::model::mesh::Mesh;
+use crate::model::areas::contact_areas;
 use crate::physics::element::hex8;
 use crate::physics::rim;
-use crate::physics::tensor::{add, cross, det, dot, scale, sub};
+use crate::physics::tensor::{det, dot, scale, sub};
 use crate::record::{ContactNode, ContactState, Snapshot};
 use crate::scene::Road;
-
-/// Tributary areas of the surface nodes [m2], shape `[surface_count]`: the quarters nearest to each node of its
-/// deformed facets, projected on the road, of facets that face it. Without a road: empty.
-pub fn contact_areas(mesh: &Mesh, x: impl Fn(u32) -> [f64; 3], road: &Road) -> Vec<f64> {
-    let Road::Plane { normal, .. } = road;
-    let mut areas = vec![0.0; mesh.surface.len()];
-    for facet in &mesh.facets {
-        let p = facet.map(&x);
-        let middle = |a: usize, b: usize| scale(add(p[a], p[b]), 0.5);
-        let centre = scale(add(middle(0, 1), middle(2, 3)), 0.5);
-        for a in 0..4 {
-            let Ok(k) = mesh.surface.binary_search(&facet[a]) else { continue };
-            let (before, after) = (middle((a + 3) % 4, a), middle(a, (a + 1) % 4));
-            let doubled = cross(sub(centre, p[a]), sub(before, after));
-            areas[k] += (-0.5 * dot(doubled, *normal)).max(0.0);
-        }
-    }
-    areas
-}
 
 /// A snapshot at the end of a window.
 pub fn snapshot(

@@ -1,8 +1,8 @@
 //! From windows to history rows: totals, balances, means.
 
-use super::fields::contact_areas;
 use crate::engine::{Window, Works};
 use crate::model::Model;
+use crate::model::areas::contact_areas;
 use crate::record::Sample;
 use crate::scene::Road;
 

@@ -33,7 +33,7 @@ fn every_shipped_scene_loads_and_explains_itself() {
         }
         count += 1;
     }
-    assert_eq!(count, 15);
+    assert!(count >= 16, "{count} scenes");
 }
 
 #[test]

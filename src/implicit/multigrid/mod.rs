@@ -68,7 +68,8 @@ impl Multigrid {
         let mut spec = scene.body.mesh.clone();
         while let Some(coarser) = halved(&spec) {
             let body = Body { mesh: coarser.clone(), ..scene.body.clone() };
-            let mesh = Mesh::generate(&coarser, body.offset, scene.rim.as_ref().map(|r| r.nodes));
+            let rim = scene.rim.as_ref().map(|r| r.nodes);
+            let mesh = Mesh::graded(&coarser, &body.grading, body.offset, rim, &[]);
             // A coarse mesh so coarse that it is inside out ends the hierarchy.
             let Ok(coarse) = Model::from_mesh(mesh, &body) else { break };
             let transfer = Transfer::new(&Grid::new(&spec), &Grid::new(&coarser));
