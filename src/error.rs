@@ -64,6 +64,10 @@ pub enum Error {
     #[error("stage {stage:?} did not settle: {detail}")]
     NotSettled { stage: String, detail: String },
 
+    /// A report whose claims do not all hold.
+    #[error("claims that do not hold: {cases}; the report says by how much")]
+    Claims { cases: String },
+
     /// Ctrl-C: everything computed so far has been written.
     #[error("interrupted at t = {time:.6e} s; everything computed so far is in {}", .out.display())]
     Interrupted { time: f64, out: PathBuf },
@@ -80,7 +84,10 @@ impl Error {
             Error::Scene { .. } => 2,
             Error::Unsupported { .. } => 3,
             Error::NoAdapter { .. } | Error::TooLarge { .. } | Error::Device { .. } => 4,
-            Error::Inverted { .. } | Error::NotFinite { .. } | Error::NotSettled { .. } => 5,
+            Error::Inverted { .. }
+            | Error::NotFinite { .. }
+            | Error::NotSettled { .. }
+            | Error::Claims { .. } => 5,
             Error::Io { .. } | Error::Format { .. } | Error::Picture { .. } => 6,
             Error::Interrupted { .. } => 130,
         }

@@ -15,6 +15,7 @@ pub mod output;
 pub mod physics;
 pub mod record;
 pub mod render;
+pub mod report;
 pub mod run;
 pub mod scene;
 

@@ -13,6 +13,7 @@ mod pictures;
 mod progress;
 mod recorder;
 mod render;
+mod report;
 mod run;
 mod table;
 mod warnings;
@@ -66,6 +67,9 @@ enum Command {
     /// Errors between two runs of one mesh, history by history and field by field
     #[command(after_help = compare::HELP)]
     Compare(compare::CompareArgs),
+    /// Measure what can be believed: claims against closed forms, limits of stability, speed against error
+    #[command(after_help = report::HELP)]
+    Report(report::ReportArgs),
     /// List the GPU adapters, their limits, and the one that `--engine auto` takes
     Adapters(adapters::AdaptersArgs),
 }
@@ -92,6 +96,7 @@ impl Cli {
             Command::Check(args) => check::execute(&args),
             Command::Render(args) => render::execute(&args),
             Command::Compare(args) => compare::execute(&args),
+            Command::Report(args) => report::execute(&args),
             Command::Adapters(args) => adapters::execute(&args),
         }
     }

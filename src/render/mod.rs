@@ -6,7 +6,7 @@
 
 mod body;
 mod camera;
-mod canvas;
+pub mod canvas;
 mod colour;
 mod contact;
 mod field;

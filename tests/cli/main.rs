@@ -6,4 +6,5 @@ mod comparing;
 mod ending_early;
 mod mistakes;
 mod program;
+mod reporting;
 mod running;
