@@ -68,6 +68,10 @@ pub enum Error {
     #[error("claims that do not hold: {cases}; the report says by how much")]
     Claims { cases: String },
 
+    /// Rows of a bench that failed, or whose results are wrong: a fast wrong run is a failed run.
+    #[error("bench rows failed: {detail}")]
+    Bench { detail: String },
+
     /// Ctrl-C: everything computed so far has been written.
     #[error("interrupted at t = {time:.6e} s; everything computed so far is in {}", .out.display())]
     Interrupted { time: f64, out: PathBuf },
@@ -87,7 +91,8 @@ impl Error {
             Error::Inverted { .. }
             | Error::NotFinite { .. }
             | Error::NotSettled { .. }
-            | Error::Claims { .. } => 5,
+            | Error::Claims { .. }
+            | Error::Bench { .. } => 5,
             Error::Io { .. } | Error::Format { .. } | Error::Picture { .. } => 6,
             Error::Interrupted { .. } => 130,
         }

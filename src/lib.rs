@@ -4,6 +4,7 @@
 #![allow(non_snake_case)] // F, J, W, N: the field's own symbols
 #![allow(rustdoc::broken_intra_doc_links)] // units are written [m], [N s]
 
+pub mod bench;
 pub mod cli;
 pub mod cpu;
 pub mod engine;
@@ -13,10 +14,12 @@ pub mod implicit;
 pub mod model;
 pub mod output;
 pub mod physics;
+pub mod plot;
 pub mod record;
 pub mod render;
 pub mod report;
 pub mod run;
 pub mod scene;
+pub mod study;
 
 pub use error::{Error, Result};

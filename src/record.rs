@@ -13,6 +13,10 @@ pub struct Sample {
     pub road_fx_N: f64,
     pub road_fy_N: f64,
     pub road_fz_N: f64,
+    /// Standard deviation over the window of the road's force in every step (explicit stages; 0 in implicit ones) [N].
+    pub road_fx_std_N: f64,
+    pub road_fy_std_N: f64,
+    pub road_fz_std_N: f64,
     /// Rim's force on the rubber, without the rim nodes' own inertia [N].
     pub rim_fx_N: f64,
     pub rim_fy_N: f64,
@@ -27,12 +31,23 @@ pub struct Sample {
     pub axle_z_m: f64,
     /// Spin angle at the end of the window [rad].
     pub rim_angle_rad: f64,
+    /// Steer angle about z, and camber about the new x, at the end of the window [rad].
+    pub steer_rad: f64,
+    pub camber_rad: f64,
     /// Deformed area of the touching nodes, each weighted with its share of the window in contact [m2].
     pub contact_area_m2: f64,
     /// Mean number of touching nodes over the window.
     pub contact_nodes: f64,
     /// Share of the touching node-steps that stick, 0..1 (0 without contact or friction).
     pub sticking_share: f64,
+    /// Nodes that change their contact state (free, stick, slip) from one step to the next, over touching nodes.
+    pub changing_share: f64,
+    /// Extent of the footprint along the wheel's heading and across it, over nodes that touch for half of the window
+    /// or more, with the halves of the facets beside them [m].
+    pub footprint_length_m: f64,
+    pub footprint_width_m: f64,
+    /// Largest normal force of a node, mean over the window, over its deformed area [Pa].
+    pub peak_pressure_Pa: f64,
     /// Kinetic energy at the last half step [J].
     pub kinetic_J: f64,
     pub strain_J: f64,
@@ -64,10 +79,11 @@ macro_rules! columns {
 impl Sample {
     /// Every column but `stage`, in the order of the fields.
     pub const COLUMNS: &'static [Column] = columns!(
-        time_s road_fx_N road_fy_N road_fz_N rim_fx_N rim_fy_N rim_fz_N rim_mx_Nm rim_my_Nm rim_mz_Nm
-        axle_x_m axle_y_m axle_z_m rim_angle_rad contact_area_m2 contact_nodes sticking_share kinetic_J
-        strain_J hourglass_J external_work_J friction_work_J contact_work_J damping_work_J viscous_work_J
-        balance_error_J stored_balance_error_J min_jacobian dt_s
+        time_s road_fx_N road_fy_N road_fz_N road_fx_std_N road_fy_std_N road_fz_std_N rim_fx_N rim_fy_N
+        rim_fz_N rim_mx_Nm rim_my_Nm rim_mz_Nm axle_x_m axle_y_m axle_z_m rim_angle_rad steer_rad camber_rad
+        contact_area_m2 contact_nodes sticking_share changing_share footprint_length_m footprint_width_m peak_pressure_Pa
+        kinetic_J strain_J hourglass_J external_work_J friction_work_J contact_work_J damping_work_J
+        viscous_work_J balance_error_J stored_balance_error_J min_jacobian dt_s
     );
 }
 
@@ -92,6 +108,8 @@ pub struct ContactNode {
     pub pressure: f64,
     /// Tangential speed relative to the road [m/s].
     pub slip_speed: f64,
+    /// Energy that friction has dissipated at the node since the start [J].
+    pub friction_energy: f64,
     pub state: ContactState,
 }
 
@@ -114,4 +132,55 @@ pub struct Snapshot {
     pub von_mises: Vec<f64>,
     /// Axle's position [m] and rotation matrix of the rim (rows), if there is a rim.
     pub axle: Option<([f64; 3], [[f64; 3]; 3])>,
+}
+
+/// The road's force step by step, over the last 30 % of an explicit stage.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ContactNoise {
+    /// What the steps span [s], and how many there are.
+    pub start: f64,
+    pub end: f64,
+    pub steps: u64,
+    /// Steps without any contact.
+    pub free_steps: u64,
+    /// Mean force, and standard deviation of the single steps about it [N].
+    pub mean: [f64; 3],
+    pub std: [f64; 3],
+    /// The node-passing tone of a spinning ring mesh.
+    pub tone: Option<Tone>,
+    /// Standard deviation about a straight line and the tone: what is left is chatter or noise [N].
+    pub remaining: [f64; 3],
+    /// Nodes that change their contact state from one step to the next, over touching nodes.
+    pub changing_share: f64,
+}
+
+/// A ring of N elements round the circumference is a polygon whose corners meet the road N times a turn: that is heard
+/// in the force at N omega / 2 pi and its multiples.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Tone {
+    /// [Hz]
+    pub frequency: f64,
+    /// Standard deviation of the force that it makes, with its multiples [N].
+    pub std: [f64; 3],
+}
+
+/// One iteration of Newton's method in an implicit stage: a row of `implicit.csv`.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct NewtonRow {
+    pub stage: String,
+    /// End and length of the increment that is being tried [s].
+    pub time_s: f64,
+    pub dt_s: f64,
+    /// What became of the increment: `converged`, or `failed` (it is cut, and tried again shorter).
+    pub increment: String,
+    /// From 0: the state that the increment starts from.
+    pub iteration: usize,
+    /// Residual before the iteration's correction, over the force scale (eq. 23).
+    pub residual: f64,
+    /// Nodes whose contact state changed before the correction.
+    pub contact_changes: usize,
+    /// Iterations of the linear solver, sweeps of the relaxation, or multigrid cycles.
+    pub inner_iterations: usize,
+    /// Share of the correction that was applied; 0 where there was none.
+    pub share: f64,
 }

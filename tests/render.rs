@@ -265,6 +265,7 @@ fn differences(renderer: &mut Renderer) {
         Field::Pressure,
         Field::VolumeRatio,
         Field::VonMises,
+        Field::FrictionEnergy,
     ];
     let mut options: Vec<BodyView> = fields.iter().map(|&field| BodyView { field, ..small() }).collect();
     options.extend(

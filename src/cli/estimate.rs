@@ -6,7 +6,7 @@ use crate::Result;
 use crate::engine::Engine;
 use crate::model::Model;
 use crate::run::{Motion, stability};
-use crate::scene::Scene;
+use crate::scene::{ImplicitScheme, Method, Scene, Stage};
 
 /// Steps of a scene at the step that single elements allow.
 #[derive(Debug, Clone, serde::Serialize)]
@@ -24,7 +24,14 @@ impl Steps {
     pub fn of(scene: &Scene, model: &Model) -> Result<Steps> {
         let element_bound_s = stability::element_bound(model)?;
         let dt_s = scene.safety * element_bound_s;
-        let by_stage: Vec<u64> = scene.stages.iter().map(|s| (s.duration / dt_s).ceil() as u64).collect();
+        let steps = |s: &Stage| match s.method {
+            Method::Implicit(implicit) => match implicit.scheme {
+                ImplicitScheme::Static { increments } => increments as u64,
+                ImplicitScheme::Dynamic { step, .. } => (s.duration / step).ceil() as u64,
+            },
+            Method::Explicit | Method::QuasiStatic { .. } => (s.duration / dt_s).ceil() as u64,
+        };
+        let by_stage: Vec<u64> = scene.stages.iter().map(steps).collect();
         let total = by_stage.iter().sum();
         Ok(Steps { element_bound_s, dt_s, by_stage, total })
     }

@@ -4,6 +4,8 @@
 //! [`Error::exit_code`](crate::Error::exit_code).
 
 mod adapters;
+mod batch;
+mod bench;
 mod check;
 pub mod choose;
 mod compare;
@@ -15,6 +17,8 @@ mod recorder;
 mod render;
 mod report;
 mod run;
+mod study;
+mod sweep;
 mod table;
 mod warnings;
 
@@ -43,7 +47,9 @@ Examples:
   hexroll run scenes/lat100_straight.toml
   hexroll render runs/lat100_straight --view side --field pressure
   hexroll run scenes/lat100_straight.toml --set body.element=full --out runs/full
-  hexroll compare runs/lat100_straight runs/full";
+  hexroll compare runs/lat100_straight runs/full
+  hexroll study scenes/lat100_straight_viscous.toml --refine 1,2,3
+  hexroll sweep scenes/lat100_slip5_viscous.toml --over slip-angle=-10:10:9";
 
 /// Rubber wheels of eight-node hexahedra, rolling and sliding on rigid roads: explicit dynamics on the GPU and the CPU.
 #[derive(Debug, Parser)]
@@ -64,6 +70,12 @@ enum Command {
     /// Draw pictures from the folder of a finished or killed run
     #[command(after_help = render::HELP)]
     Render(render::RenderArgs),
+    /// Run scenes on refined meshes: tables with extrapolated values and error bars
+    #[command(after_help = study::HELP)]
+    Study(study::StudyArgs),
+    /// Run a scene over slip angles, loads or any of its keys: one table, one plot
+    #[command(after_help = sweep::HELP)]
+    Sweep(sweep::SweepArgs),
     /// Errors between two runs of one mesh, history by history and field by field
     #[command(after_help = compare::HELP)]
     Compare(compare::CompareArgs),
@@ -72,15 +84,22 @@ enum Command {
     Report(report::ReportArgs),
     /// List the GPU adapters, their limits, and the one that `--engine auto` takes
     Adapters(adapters::AdaptersArgs),
+    /// Time every engine against the machine's measured limits
+    #[command(after_help = bench::HELP)]
+    Bench(bench::BenchArgs),
 }
 
 impl Cli {
     /// The process's own arguments; help, version and mistakes in them end the process (0, 0, 2).
     pub fn from_arguments() -> Cli {
         let cli = Cli::parse();
-        if let Command::Run(run) = &cli.command
-            && let Some(conflict) = run.engine.conflict()
-        {
+        let engine = match &cli.command {
+            Command::Run(args) => Some(&args.engine),
+            Command::Study(args) => Some(&args.engine),
+            Command::Sweep(args) => Some(&args.engine),
+            _ => None,
+        };
+        if let Some(conflict) = engine.and_then(|e| e.conflict()) {
             Cli::command().error(ErrorKind::ArgumentConflict, conflict).exit();
         }
         cli
@@ -95,9 +114,12 @@ impl Cli {
             Command::Run(args) => run::execute(&args),
             Command::Check(args) => check::execute(&args),
             Command::Render(args) => render::execute(&args),
+            Command::Study(args) => study::execute(&args),
+            Command::Sweep(args) => sweep::execute(&args),
             Command::Compare(args) => compare::execute(&args),
             Command::Report(args) => report::execute(&args),
             Command::Adapters(args) => adapters::execute(&args),
+            Command::Bench(args) => bench::execute(&args),
         }
     }
 }

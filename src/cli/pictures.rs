@@ -12,13 +12,14 @@ use crate::scene::{Field, Picture, Road};
 use crate::{Error, Result};
 
 /// Fields by the names that scenes and arguments give them.
-pub const FIELDS: [(&str, Field); 6] = [
+pub const FIELDS: [(&str, Field); 7] = [
     ("displacement", Field::Displacement),
     ("velocity", Field::Velocity),
     ("contact-force", Field::ContactForce),
     ("pressure", Field::Pressure),
     ("volume-ratio", Field::VolumeRatio),
     ("von-mises", Field::VonMises),
+    ("friction-energy", Field::FrictionEnergy),
 ];
 
 /// Views by the names that arguments give them.

@@ -13,9 +13,15 @@ const PARTS: u64 = 1000;
 /// A plain line is due after this share of the run, or this time.
 const SHARE: f64 = 0.1;
 const PAUSE: Duration = Duration::from_secs(10);
+/// The same for one of many runs, of which no share makes a line due.
+const LONG_PAUSE: Duration = Duration::from_secs(60);
 
 /// Shows the progress of one run.
 pub struct Display {
+    /// In front of every line: which of many runs it is.
+    name: String,
+    /// Time after which a plain line is due.
+    pause: Duration,
     elements: usize,
     start: Instant,
     shown: Shown,
@@ -41,7 +47,14 @@ impl Display {
         } else {
             Shown::Lines { share: 0.0, at: start, next: None }
         };
-        Display { elements, start, shown }
+        Display { name: String::new(), pause: PAUSE, elements, start, shown }
+    }
+
+    /// For one of many runs: plain lines, and none within the first minute.
+    pub fn quiet(elements: usize, name: &str) -> Display {
+        let start = Instant::now();
+        let shown = Shown::Lines { share: f64::INFINITY, at: start, next: None };
+        Display { name: format!("{name}: "), pause: LONG_PAUSE, elements, start, shown }
     }
 
     /// A window has ended.
@@ -54,11 +67,11 @@ impl Display {
                 bar.set_position((share * PARTS as f64) as u64);
             }
             Shown::Lines { share: shown, at, next } => {
-                let line = format!("{:>3.0} %  {text}", 100.0 * share);
-                if share >= *shown + SHARE || at.elapsed() >= PAUSE {
-                    (*shown, *at, *next) = (share, Instant::now(), None);
+                let line = format!("{}{:>3.0} %  {text}", self.name, 100.0 * share);
+                if share >= *shown + SHARE || at.elapsed() >= self.pause {
+                    (*shown, *at, *next) = (shown.max(share), Instant::now(), None);
                     eprintln!("{line}");
-                } else {
+                } else if self.name.is_empty() {
                     *next = Some(line);
                 }
             }

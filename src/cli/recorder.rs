@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::progress::Display;
 use crate::output::RunWriter;
-use crate::record::{Sample, Snapshot};
+use crate::record::{NewtonRow, Sample, Snapshot};
 use crate::run::{Observer, Progress, Totals};
 use crate::{Error, Result};
 
@@ -25,6 +25,11 @@ pub fn listen_for_interrupts() -> Result<()> {
     })
 }
 
+/// Whether one has come.
+pub fn interrupted() -> bool {
+    STOP.load(Ordering::SeqCst)
+}
+
 /// The observer of a run.
 pub struct Recorder<'w, 'm> {
     writer: &'w mut RunWriter<'m>,
@@ -39,9 +44,9 @@ pub struct Recorder<'w, 'm> {
 }
 
 impl<'w, 'm> Recorder<'w, 'm> {
-    pub fn new(writer: &'w mut RunWriter<'m>, elements: usize) -> Self {
+    pub fn new(writer: &'w mut RunWriter<'m>, display: Display) -> Self {
         let (history, totals, output) = (Vec::new(), Totals::default(), Duration::ZERO);
-        Recorder { writer, display: Display::new(elements), history, snapshots: 0, totals, output }
+        Recorder { writer, display, history, snapshots: 0, totals, output }
     }
 
     /// Ends the display.
@@ -69,7 +74,11 @@ impl Observer for Recorder<'_, '_> {
         Ok(())
     }
 
+    fn increment(&mut self, iterations: &[NewtonRow]) -> Result<()> {
+        self.writer.iterations(iterations)
+    }
+
     fn interrupted(&self) -> bool {
-        STOP.load(Ordering::SeqCst)
+        interrupted()
     }
 }

@@ -9,6 +9,7 @@ use super::SceneArgs;
 use super::choose::{self, Chosen, EngineArgs};
 use super::format::plural;
 use super::pictures::{self, Style};
+use super::progress::Display;
 use super::recorder::{Recorder, listen_for_interrupts};
 use super::{table, warnings};
 use crate::engine::EngineInfo;
@@ -16,7 +17,7 @@ use crate::model::Model;
 use crate::output::summary::{StageMeans, Versions, WorstBalance};
 use crate::output::{RunWriter, Summary};
 use crate::run::{self, Totals};
-use crate::scene::{Method, Scene, Stage};
+use crate::scene::Scene;
 use crate::{Error, Result};
 
 pub const HELP: &str = "\
@@ -49,33 +50,63 @@ impl RunArgs {
 
 pub fn execute(args: &RunArgs) -> Result<()> {
     let (scene, text) = args.scene.load()?;
-    let model = Model::new(&scene)?;
     listen_for_interrupts()?;
-    let Chosen { mut engine, reason } = choose::choose(&args.engine, &model, &scene)?;
     let out = args.out();
-    let mut writer = RunWriter::create(&out, &model.mesh, Some(&text))?;
-    let info = engine.info();
-    eprintln!("{}\n{} {} ({reason})", scene.title, info.engine, info.precision);
+    let title = scene.title.clone();
+    let display = |elements, info: &EngineInfo, reason: &str| {
+        eprintln!("{title}\n{} {} ({reason})", info.engine, info.precision);
+        Display::new(elements)
+    };
+    let done = simulate(&scene, &text, &args.engine, &out, display)?;
+    let printed = super::print(&table::text(&done.summary, &out, &done.files));
+    done.error.map_or(printed, Err)
+}
 
+/// A run that has ended, with everything on disk.
+pub struct Done {
+    pub summary: Summary,
+    /// What is in the folder besides history and summary.
+    pub files: String,
+    /// Why it ended early.
+    pub error: Option<Error>,
+}
+
+/// Runs a scene into the folder `out`; `display` makes what shows its progress, given the number of elements, the engine
+/// and the reason for it.
+///
+/// # Errors
+/// What keeps the run from starting, or its results from being written; a failure of the run itself is in [`Done`].
+pub fn simulate(
+    scene: &Scene,
+    text: &str,
+    engine: &EngineArgs,
+    out: &Path,
+    display: impl FnOnce(usize, &EngineInfo, &str) -> Display,
+) -> Result<Done> {
+    let model = Model::new(scene)?;
+    let Chosen { mut engine, reason } = choose::choose(engine, &model, scene)?;
+    let mut writer = RunWriter::create(out, &model.mesh, Some(text))?;
+    let info = engine.info();
     let start = Instant::now();
-    let mut recorder = Recorder::new(&mut writer, model.element_count());
-    let result = run::run(&scene, &model, &mut *engine, &mut recorder);
+    let mut recorder = Recorder::new(&mut writer, display(model.element_count(), &info, &reason));
+    let result = run::run(scene, &model, &mut *engine, &mut recorder);
     recorder.finish();
     let (totals, error) = match result {
         Ok(t) if t.interrupted => {
-            let error = Error::Interrupted { time: t.time, out: out.clone() };
+            let error = Error::Interrupted { time: t.time, out: out.into() };
             (t, Some(error))
         }
         Ok(totals) => (totals, None),
         Err(error) => (recorder.totals.clone(), Some(error)),
     };
-    let mut report =
-        Report { scene: &scene, model: &model, info, reason, out: &out, summary: Summary::default() };
+    let mut report = Report { scene, model: &model, info, reason, out, summary: Summary::default() };
     report.fill(&recorder, &totals, start.elapsed(), error.as_ref());
     let snapshots = recorder.snapshots;
-    let saved = report.finish(&mut writer, snapshots);
-    // A failure of the run matters more than one of its report.
-    error.map_or(saved, Err)
+    match report.finish(&mut writer, snapshots) {
+        Ok(files) => Ok(Done { summary: report.summary, files, error }),
+        // A failure of the run matters more than one of its report.
+        Err(failure) => Err(error.unwrap_or(failure)),
+    }
 }
 
 /// What is said of a run when it has ended.
@@ -94,11 +125,10 @@ impl Report<'_> {
         let on_gpu = (info.engine == "gpu").then_some(());
         let computing = wall.saturating_sub(recorder.output).as_secs_f64();
         let updates = totals.steps as f64 * self.model.element_count() as f64;
+        let stages = StageMeans::of_run(scene, &recorder.history, totals);
         let mut warnings = warnings::of(scene, self.model);
-        warnings.extend(warnings::of_history(scene, &recorder.history));
+        warnings.extend(warnings::of_run(scene, &stages));
         warnings.extend(error.map(|e| format!("the run did not finish: {e}")));
-        let settles = |s: &&Stage| matches!(s.method, Method::QuasiStatic { .. });
-        let settling: Vec<&str> = scene.stages.iter().filter(settles).map(|s| s.name.as_str()).collect();
         // Of a run that took no step there is no smallest one.
         let known = |dt: f64| if dt.is_finite() { dt } else { 0.0 };
         self.summary = Summary {
@@ -124,14 +154,15 @@ impl Report<'_> {
             stored_balance: WorstBalance::of_stored(&recorder.history),
             // + 0.0: no road was pierced is 0, not -0.
             worst_penetration_m: scene.road.map(|_| -totals.ledger.worst_gap + 0.0),
-            stages: StageMeans::of(&recorder.history, &settling),
+            finished: error.is_none(),
+            stages,
             versions: Versions::current(),
             warnings,
         };
     }
 
-    /// Writes the summary, draws the pictures, prints the table.
-    fn finish(&mut self, writer: &mut RunWriter, snapshots: usize) -> Result<()> {
+    /// Writes the summary and draws the pictures; says what is in the folder.
+    fn finish(&mut self, writer: &mut RunWriter, snapshots: usize) -> Result<String> {
         writer.finish(&self.summary)?;
         let drawn = match self.draw() {
             Ok(drawn) => drawn,
@@ -142,8 +173,7 @@ impl Report<'_> {
                 0
             }
         };
-        let files = format!("{}, {}", plural(snapshots, "snapshot"), plural(drawn, "picture"));
-        super::print(&table::text(&self.summary, self.out, &files))
+        Ok(format!("{}, {}", plural(snapshots, "snapshot"), plural(drawn, "picture")))
     }
 
     fn draw(&self) -> Result<usize> {

@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::format::{count, duration, si, updates};
-use crate::output::Summary;
 use crate::output::summary::{StageMeans, WorstBalance};
+use crate::output::{ContactScatter, Rolling, Summary, Verdict};
 
 /// The table; `files` says what else is in the folder `out`.
 pub fn text(summary: &Summary, out: &Path, files: &str) -> String {
@@ -14,6 +14,7 @@ pub fn text(summary: &Summary, out: &Path, files: &str) -> String {
         _ = writeln!(text, "  {name:<12} {value}");
     }
     text += &means(&summary.stages);
+    summary.stages.iter().for_each(|s| text += &rolling(s));
     _ = writeln!(text, "  {:<12} {}: history.csv, {files}, summary.json", "files", out.display());
     for warning in &summary.warnings {
         _ = writeln!(text, "  warning: {warning}");
@@ -66,6 +67,87 @@ fn means(stages: &[StageMeans]) -> String {
         text.push('\n');
     }
     text + "\n"
+}
+
+/// What a tyre engineer reads first, and whether the contact force is smooth.
+fn rolling(stage: &StageMeans) -> String {
+    let mut lines = stage.rolling.as_ref().map(figures).unwrap_or_default();
+    lines.extend(stage.contact.as_ref().map(|c| ("contact force", scatter(c))));
+    let mut text = String::new();
+    if !lines.is_empty() {
+        _ = writeln!(text, "  {}", stage.stage);
+    }
+    for (name, value) in lines {
+        _ = writeln!(text, "    {name:<20} {value}");
+    }
+    text
+}
+
+fn figures(r: &Rolling) -> Vec<(&'static str, String)> {
+    let newtons = |f: f64| format!("{} N", four_digits(f));
+    let mm = |l: f64| format!("{} mm", four_digits(1e3 * l));
+    let trail = r.pneumatic_trail_m.map_or(String::new(), |t| format!(", pneumatic trail {}", mm(t)));
+    let slip =
+        r.longitudinal_slip.map_or(String::new(), |k| format!(", longitudinal slip {:.2} %", 100.0 * k));
+    let free = r.free_rolling_radius_m.map_or("", |_| " (rolls freely)");
+    vec![
+        (
+            "motion",
+            format!(
+                "{} m/s, {} rad/s, slip angle {:.2} deg{slip}",
+                four_digits(r.speed_m_s),
+                four_digits(r.spin_rad_s),
+                r.slip_angle_deg
+            ),
+        ),
+        ("longitudinal force", newtons(r.longitudinal_force_N)),
+        (
+            "side force",
+            format!(
+                "{}, aligning moment {} N m{trail}",
+                newtons(r.side_force_N),
+                four_digits(r.aligning_moment_Nm)
+            ),
+        ),
+        (
+            "rolling resistance",
+            format!(
+                "{}: friction {}, viscosity {}, other {}",
+                newtons(r.rolling_resistance_N),
+                newtons(r.friction_loss_N),
+                newtons(r.viscous_loss_N),
+                newtons(r.other_loss_N)
+            ),
+        ),
+        ("radii", format!("loaded {}, effective {}{free}", mm(r.loaded_radius_m), mm(r.effective_radius_m))),
+        (
+            "footprint",
+            format!(
+                "{} x {}, {} mm2, pressure {} mean, {} peak",
+                mm(r.footprint_length_m),
+                mm(r.footprint_width_m),
+                four_digits(1e6 * r.footprint_area_m2),
+                si(r.mean_pressure_Pa, "Pa"),
+                si(r.peak_pressure_Pa, "Pa")
+            ),
+        ),
+    ]
+}
+
+fn scatter(c: &ContactScatter) -> String {
+    let verdict = match c.verdict {
+        Verdict::Smooth => "smooth",
+        Verdict::Tone => "hums with the mesh",
+        Verdict::Chattering => "CHATTERING",
+    };
+    let tone = c
+        .tone_Hz
+        .map_or(String::new(), |f| format!("tone of the mesh at {f:.0} Hz {:.2} %, ", 100.0 * c.tone_share));
+    format!(
+        "{verdict}: {tone}rest {:.2} % of the normal force; {:.2} % of the touching nodes change state in a step",
+        100.0 * c.remaining_share,
+        100.0 * c.changing_share
+    )
 }
 
 /// Four digits or so, without an exponent where people expect none.

@@ -1,8 +1,8 @@
 //! What a user should know of a scene or a run before believing its numbers.
 
 use crate::model::Model;
-use crate::output::stages;
-use crate::record::Sample;
+use crate::output::summary::StageMeans;
+use crate::output::{ContactScatter, Verdict};
 use crate::scene::{Drive, Element, MeshSpec, Method, Scene};
 
 /// Warnings that the scene and its mesh give without a run.
@@ -97,45 +97,33 @@ fn coarse_ring(scene: &Scene) -> Vec<String> {
     warnings
 }
 
-/// Warnings that a history gives: forces that jump from window to window.
-pub fn of_history(scene: &Scene, history: &[Sample]) -> Vec<String> {
-    /// Standard deviation over mean above which a force chatters; an 880-element wheel that rolls smoothly has 1 %.
-    const CHATTERS: f64 = 0.05;
-    if scene.friction.is_none() {
-        return Vec::new();
-    }
-    let spans = stages::spans(history);
-    let explicit = |name: &str| scene.stages.iter().any(|s| s.name == name && s.method == Method::Explicit);
-    let chattering = spans.iter().filter(|span| explicit(&span.stage)).filter_map(|span| {
-        let tail = span.tail();
-        let forces: Vec<f64> = history[span.rows.clone()]
-            .iter()
-            .filter(|s| s.time_s > tail.start)
-            .map(|s| s.road_fz_N)
-            .collect();
-        let share = scatter(&forces);
-        (share > CHATTERS).then(|| {
-            format!(
-                "the road's force in stage {:?} scatters by {:.0} % from window to window about its trend",
-                span.stage,
-                100.0 * share
-            )
-        })
-    });
-    chattering.collect()
+/// Warnings that a run gives: stages that chatter or hum, and what helps.
+pub fn of_run(scene: &Scene, stages: &[StageMeans]) -> Vec<String> {
+    let named = stages.iter().filter_map(|s| Some((&s.stage, s.contact.as_ref()?)));
+    named.filter_map(|(stage, contact)| verdict(scene, stage, contact)).collect()
 }
 
-/// Standard deviation about a straight line, over the mean; 0 where there is too little to say.
-fn scatter(values: &[f64]) -> f64 {
-    const LEAST: usize = 8;
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    if values.len() < LEAST || mean.abs() < 1e-12 {
-        return 0.0;
+fn verdict(scene: &Scene, stage: &str, contact: &ContactScatter) -> Option<String> {
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    match contact.verdict {
+        Verdict::Smooth => None,
+        Verdict::Tone => Some(format!(
+            "stage {stage:?} hums: the corners of the ring mesh pass the road at {:.0} Hz and move its force by {} of the \
+             normal force; the means stand, a finer mesh makes the tone higher and weaker",
+            contact.tone_Hz.unwrap_or(0.0),
+            percent(contact.tone_share),
+        )),
+        Verdict::Chattering => Some(format!(
+            "stage {stage:?} is chattering: from step to step the road's force scatters by {} of the normal force \
+             (limit {}), and {} of the touching nodes change their state; its means are not to be believed. {}",
+            percent(contact.remaining_share),
+            percent(contact.limit),
+            percent(contact.changing_share),
+            match scene.body.viscosity {
+                None =>
+                    "A viscosity helps (body.material.viscosity, for rubber of the order of 20 Pa s)".into(),
+                Some(eta) => format!("More viscosity may help (body.material.viscosity is {eta} Pa s)"),
+            }
+        )),
     }
-    let at = |i: usize| i as f64 - 0.5 * (n - 1.0);
-    let spread: f64 = (0..values.len()).map(|i| at(i) * at(i)).sum();
-    let slope = values.iter().enumerate().map(|(i, v)| at(i) * v).sum::<f64>() / spread;
-    let rest = |(i, v): (usize, &f64)| (v - mean - slope * at(i)).powi(2);
-    (values.iter().enumerate().map(rest).sum::<f64>() / n).sqrt() / mean.abs()
 }

@@ -1,50 +1,43 @@
-//! The element passes, several elements at a time: forces into per-corner slots, and stored energies.
+//! The element pass, several elements at a time: forces onto the node lines.
 
-use super::batches::ElementBatch;
+use super::chains::{BACK, FRONT};
 use super::family::{LawFamily, ViscosityFamily};
-use super::state::View;
-use crate::engine::EnergyTotals;
+use super::layout::{Item, Loose, Row};
+use super::state::{Aligned, View};
 use crate::model::Model;
-use crate::physics::element::{Class, Corners, Formulation, Full, Q1p0, UniformGradient};
-use crate::physics::lanes::{Array, Lanes, Level};
+use crate::physics::element::{Class, Corners, Formulation, Full, LaneShapes, Q1p0, UniformGradient};
+use crate::physics::lanes::{Array, Lanes, Level, WIDEST, first};
 use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::{Real, Scalar};
+use crate::physics::tensor::Vec3;
 use crate::scene;
 use std::marker::PhantomData;
-use std::ops::Range;
 
 /// Constant data of the element passes.
 pub struct Elements<T> {
-    pub hexes: Vec<[u32; 8]>,
-    pub classes: Vec<Class<T>>,
-    pub batches: Vec<ElementBatch>,
+    pub items: Vec<Item>,
+    /// Reference geometry by lanes, an entry of [`Class::NUMBERS`] vectors each.
+    pub shapes: Aligned<T>,
 }
 
-/// What a range of batches reports.
+/// What an item reports: its first element whose det F is not positive.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Failed(pub Option<usize>);
 
-/// An element pass over batches, composed for one formulation, law and viscosity.
-pub trait Kernel<T>: Send + Sync {
-    /// Corner forces of the batches into the slots of `view`; viscous power [W] times `weight` added to
-    /// `power[batch]`. Returns the first element whose det F is not positive.
-    ///
-    /// # Safety
-    /// No other thread touches the slots or powers of these batches, nor writes positions or velocities.
-    unsafe fn forces(
-        &self,
-        elements: &Elements<T>,
-        range: Range<usize>,
-        view: &View<T>,
-        power: *mut f64,
-        weight: f64,
-    ) -> Failed;
+/// Viscous power: where its sums are, one f64 a lane, and what it counts.
+#[derive(Debug, Clone, Copy)]
+pub struct Power {
+    pub sums: *mut f64,
+    pub weight: f64,
+}
 
-    /// Stored energies of all elements.
+/// An element pass, composed for one formulation, law and viscosity.
+pub trait Kernel<T>: Send + Sync {
+    /// Corner forces of an item onto the slots of its lines; viscous power [W] times the weight added to its sums.
     ///
     /// # Safety
-    /// No thread writes positions.
-    unsafe fn energies(&self, elements: &Elements<T>, view: &View<T>) -> EnergyTotals;
+    /// No other thread touches the slots of the item's group or these sums, nor writes the item's nodes.
+    unsafe fn forces(&self, elements: &Elements<T>, item: usize, view: &View<T>, power: Power) -> Failed;
 }
 
 struct Composed<F, L, V> {
@@ -54,36 +47,47 @@ struct Composed<F, L, V> {
     kind: PhantomData<(F, L, V)>,
 }
 
-/// Corner values of a batch: contiguous runs where the mesh allows, else one by one.
-#[inline(always)]
-unsafe fn corners<N: Lanes>(batch: &ElementBatch, field: &[*mut N::Real; 3]) -> Corners<N> {
-    let mut x = [[N::zero(); 3]; 8];
-    for c in 0..8 {
-        for d in 0..3 {
-            x[c][d] = unsafe {
-                if batch.contiguous {
-                    N::load(field[d], batch.base[c] as usize)
-                } else {
-                    N::gather(field[d], &batch.nodes[c])
-                }
-            };
-        }
-    }
-    x
+/// Corners of a batch copied together, with nothing in common: vector c of a component holds corner c of every lane.
+struct Copied<T> {
+    x: [[T; 8 * WIDEST]; 3],
+    v: [[T; 8 * WIDEST]; 3],
+    f: [[T; 8 * WIDEST]; 3],
 }
 
-/// Stores the valid lanes of the corner forces.
-#[inline(always)]
-unsafe fn store<N: Lanes>(batch: &ElementBatch, view: &View<N::Real>, f: &Corners<N>) {
-    for c in 0..8 {
-        for d in 0..3 {
-            let at = view.slot(c, d) + batch.first;
-            unsafe {
-                if batch.count == N::WIDTH {
-                    f[c][d].store(view.slots, at);
-                } else {
-                    for lane in 0..batch.count {
-                        *view.slots.add(at + lane) = f[c][d].lane(lane);
+impl<T: Real> Copied<T> {
+    fn none() -> Self {
+        let zero = [[T::zero(); 8 * WIDEST]; 3];
+        Copied { x: zero, v: zero, f: zero }
+    }
+
+    /// # Safety
+    /// No thread writes the nodes of `loose`.
+    unsafe fn read(&mut self, loose: &Loose, view: &View<T>, width: usize, velocities: bool) {
+        for (c, nodes) in loose.nodes.iter().enumerate() {
+            for (lane, &n) in nodes[..width].iter().enumerate() {
+                for d in 0..3 {
+                    unsafe {
+                        self.x[d][c * width + lane] = *view.x[d].add(n as usize);
+                        if velocities {
+                            self.v[d][c * width + lane] = *view.v[d].add(n as usize);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds the forces of the elements, lane by lane.
+    ///
+    /// # Safety
+    /// No other thread touches the slots of `loose`.
+    unsafe fn add(&self, loose: &Loose, view: &View<T>, width: usize) {
+        for (c, slots) in loose.f.iter().enumerate() {
+            for (lane, &slot) in slots[..loose.elements.len()].iter().enumerate() {
+                for d in 0..3 {
+                    unsafe {
+                        let to = view.f[d].add(slot as usize);
+                        *to = *to + self.f[d][c * width + lane];
                     }
                 }
             }
@@ -91,88 +95,187 @@ unsafe fn store<N: Lanes>(batch: &ElementBatch, view: &View<N::Real>, f: &Corner
     }
 }
 
-/// The pass in lanes `N`; inlined into a function that has their instructions.
+/// Where vectors of corners are: of rows on their lines, of loose elements where they were copied to.
+struct Corner<T> {
+    back: [usize; 4],
+    front: [usize; 4],
+    x: [*const T; 3],
+    v: [*const T; 3],
+}
+
+impl<T: Real> Corner<T> {
+    fn of_row(row: &Row, view: &View<T>) -> Self {
+        let front = row.x.map(|x| x + 1);
+        Corner { back: row.x, front, x: view.x.map(|p| p.cast_const()), v: view.v.map(|p| p.cast_const()) }
+    }
+
+    fn of_copy(copy: &Copied<T>, width: usize) -> Self {
+        let pointers = |field: &[[T; 8 * WIDEST]; 3]| [0, 1, 2].map(|d| field[d].as_ptr());
+        Corner {
+            back: BACK.map(|c| c * width),
+            front: FRONT.map(|c| c * width),
+            x: pointers(&copy.x),
+            v: pointers(&copy.v),
+        }
+    }
+
+    /// The corners of the batch that starts at element `at`.
+    #[inline(always)]
+    unsafe fn load<N: Lanes<Real = T>>(&self, field: &[*const T; 3], at: usize) -> Corners<N> {
+        let mut x = [[N::zero(); 3]; 8];
+        for k in 0..4 {
+            for d in 0..3 {
+                unsafe {
+                    x[BACK[k]][d] = N::load(field[d], self.back[k] + at);
+                    x[FRONT[k]][d] = N::load(field[d], self.front[k] + at);
+                }
+            }
+        }
+        x
+    }
+}
+
+/// Reference geometry of a batch's lanes.
+#[inline(always)]
+fn shape_at<N: Lanes>(elements: &Elements<N::Real>, entry: u32) -> LaneShapes<'_, N::Real> {
+    let length = Class::<N>::NUMBERS * N::WIDTH;
+    LaneShapes(&elements.shapes.slice()[entry as usize * length..][..length])
+}
+
+/// An item in lanes `N`, batch by batch; inlined into a function that has their instructions.
+///
+/// What the elements of a row's batch give their front corners is carried into the next batch, so that a node gets the
+/// force of both its neighbours in the row at once.
 #[inline(always)]
 unsafe fn forces_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
     composed: &Composed<F, L, V>,
     elements: &Elements<N::Real>,
-    range: Range<usize>,
+    item: usize,
     view: &View<N::Real>,
-    power: *mut f64,
-    weight: f64,
-) -> Failed
-where
-    N::Real: Scalar,
-{
+    power: Power,
+) -> Failed {
     let law = <L::Law<N> as Law<N>>::new(&composed.law);
     let viscosity = <V::Viscosity<N> as Viscosity<N>>::new(composed.eta);
-    let mut failed = Failed(None);
-    let mut class_index = usize::MAX;
-    let mut class: Option<Class<N>> = None;
-    for b in range {
-        let batch = &elements.batches[b];
-        if batch.class != class_index {
-            class_index = batch.class;
-            class = Some(elements.classes[class_index].splat());
+    let viscous = <V::Viscosity<N> as Viscosity<N>>::ON;
+    let item = &elements.items[item];
+    let mut copy = None;
+    let corner = match item {
+        Item::Row(row) => Corner::of_row(row, view),
+        Item::Loose(loose) => {
+            let copy = copy.insert(Copied::none());
+            unsafe { copy.read(loose, view, N::WIDTH, viscous) };
+            Corner::of_copy(copy, N::WIDTH)
         }
-        let Some(class) = &class else { continue };
+    };
+    let mut failed = Failed(None);
+    let mut carry = [[N::zero(); 3]; 4];
+    let mut power_sum = N::zero();
+    let all = item.elements().len();
+    for (b, &shape) in item.shapes().iter().enumerate() {
+        let at = b * N::WIDTH;
+        let count = N::WIDTH.min(all - at);
         unsafe {
-            let x = corners::<N>(batch, &view.x);
-            let v = if <V::Viscosity<N> as Viscosity<N>>::ON {
-                corners::<N>(batch, &view.v)
-            } else {
-                [[N::zero(); 3]; 8]
-            };
-            let force = F::force(&law, &viscosity, class, &x, &v);
-            store(batch, view, &force.f);
-            if <V::Viscosity<N> as Viscosity<N>>::ON {
-                *power.add(b) += weight * sum_lanes(force.viscous_power, batch.count);
+            let shape = shape_at::<N>(elements, shape);
+            let x = corner.load::<N>(&corner.x, at);
+            let v = if viscous { corner.load::<N>(&corner.v, at) } else { [[N::zero(); 3]; 8] };
+            let force = F::force(&law, &viscosity, &shape, &x, &v);
+            match (item, &mut copy) {
+                (Item::Row(row), _) => add_to_row(row, view, at, count, &force.f, &mut carry),
+                (Item::Loose(_), Some(copy)) => {
+                    for c in 0..8 {
+                        for d in 0..3 {
+                            force.f[c][d].store(copy.f[d].as_mut_ptr(), c * N::WIDTH);
+                        }
+                    }
+                }
+                (Item::Loose(_), None) => {}
             }
-            if force.min_j.any_not_positive() && failed.0.is_none() {
-                failed.0 = first_failed(force.min_j, batch);
+            // Lanes beyond the last element compute with other nodes: they say nothing.
+            if viscous {
+                power_sum += force.viscous_power.choose(N::zero(), first(count));
             }
+            let min_j = force.min_j.choose(N::one(), first(count));
+            if min_j.any_not_positive() && failed.0.is_none() {
+                failed.0 = first_failed(min_j, &item.elements()[at..at + count]);
+            }
+        }
+    }
+    unsafe {
+        match (item, &copy) {
+            (Item::Row(row), _) => end_of_row(row, view, &carry),
+            (Item::Loose(loose), Some(copy)) => copy.add(loose, view, N::WIDTH),
+            (Item::Loose(_), None) => {}
+        }
+        if viscous {
+            (power_sum * N::from_f64(power.weight)).add_to(power.sums);
         }
     }
     failed
 }
 
+/// Adds a batch's forces to the lines of its row.
 #[inline(always)]
-fn sum_lanes<N: Lanes>(values: N, count: usize) -> f64 {
-    let mut sum = 0.0;
-    for lane in 0..count {
-        sum += values.lane(lane).to_f64();
+unsafe fn add_to_row<N: Lanes>(
+    row: &Row,
+    view: &View<N::Real>,
+    at: usize,
+    count: usize,
+    f: &Corners<N>,
+    carry: &mut [Vec3<N>; 4],
+) {
+    for k in 0..4 {
+        for d in 0..3 {
+            let to = row.f[k] + at;
+            let (mut back, front) = (f[BACK[k]][d], f[FRONT[k]][d]);
+            if count < N::WIDTH {
+                back = back.choose(N::zero(), first(count));
+            }
+            let mut sum = back + front.moved_up(carry[k][d]);
+            carry[k][d] = front;
+            if count < N::WIDTH {
+                // An open row's last node has its force of the element before it alone.
+                sum = sum.choose(N::zero(), first(count + usize::from(!row.closed)));
+            }
+            unsafe {
+                if row.add[k] {
+                    sum += N::load(view.f[d], to);
+                }
+                sum.store(view.f[d], to);
+            }
+        }
     }
-    sum
 }
 
-/// Lanes beyond the count repeat a valid element.
+/// What the last element gives its front corners: to the first nodes of a closed row, else to a node more.
+#[inline(always)]
+unsafe fn end_of_row<N: Lanes>(row: &Row, view: &View<N::Real>, carry: &[Vec3<N>; 4]) {
+    let all = row.elements.len();
+    for k in 0..4 {
+        for d in 0..3 {
+            unsafe {
+                if row.closed {
+                    let start = view.f[d].add(row.f[k]);
+                    *start = *start + carry[k][d].lane((all - 1) % N::WIDTH);
+                } else if all.is_multiple_of(N::WIDTH) {
+                    let mut last = N::zero().moved_up(carry[k][d]);
+                    if row.add[k] {
+                        last += N::load(view.f[d], row.f[k] + all);
+                    }
+                    last.store(view.f[d], row.f[k] + all);
+                }
+            }
+        }
+    }
+}
+
+/// The lowest of `elements` that failed.
 #[cold]
 #[inline(never)]
-fn first_failed<N: Lanes>(min_j: N, batch: &ElementBatch) -> Option<usize> {
+fn first_failed<N: Lanes>(min_j: N, elements: &[u32]) -> Option<usize> {
     let bad = |lane: &usize| {
         min_j.lane(*lane).partial_cmp(&<N::Real as Scalar>::zero()) != Some(std::cmp::Ordering::Greater)
     };
-    (0..batch.count).find(bad).map(|lane| batch.first + lane)
-}
-
-/// Once a sample, so element by element will do.
-unsafe fn energies_of<T: Real, F: Formulation, L: LawFamily>(
-    law: &scene::Law,
-    elements: &Elements<T>,
-    view: &View<T>,
-) -> EnergyTotals {
-    let law = <L::Law<T> as Law<T>>::new(law);
-    let mut totals = EnergyTotals::default();
-    for batch in &elements.batches {
-        for hex in &elements.hexes[batch.first..batch.first + batch.count] {
-            let x = hex.map(|n| [0, 1, 2].map(|d| unsafe { *view.x[d].add(n as usize) }));
-            let energy = F::energy(&law, &elements.classes[batch.class], &x);
-            totals.strain += energy.strain.to_f64();
-            totals.hourglass += energy.hourglass.to_f64();
-            totals.min_jacobian = totals.min_jacobian.min(energy.min_j.to_f64());
-        }
-    }
-    totals
+    (0..elements.len()).filter(bad).map(|lane| elements[lane] as usize).min()
 }
 
 /// One implementation a precision: which lane type each level of instructions uses.
@@ -182,10 +285,9 @@ macro_rules! dispatched {
             unsafe fn forces(
                 &self,
                 elements: &Elements<$real>,
-                range: Range<usize>,
+                item: usize,
                 view: &View<$real>,
-                power: *mut f64,
-                weight: f64,
+                power: Power,
             ) -> Failed {
                 #[cfg(target_arch = "x86_64")]
                 {
@@ -193,39 +295,31 @@ macro_rules! dispatched {
                     unsafe fn avx2<F: Formulation, L: LawFamily, V: ViscosityFamily>(
                         this: &Composed<F, L, V>,
                         elements: &Elements<$real>,
-                        range: Range<usize>,
+                        item: usize,
                         view: &View<$real>,
-                        power: *mut f64,
-                        weight: f64,
+                        power: Power,
                     ) -> Failed {
                         use crate::physics::lanes::$avx2;
-                        unsafe { forces_in::<$avx2, F, L, V>(this, elements, range, view, power, weight) }
+                        unsafe { forces_in::<$avx2, F, L, V>(this, elements, item, view, power) }
                     }
                     #[target_feature(enable = "avx512f,fma")]
                     unsafe fn avx512<F: Formulation, L: LawFamily, V: ViscosityFamily>(
                         this: &Composed<F, L, V>,
                         elements: &Elements<$real>,
-                        range: Range<usize>,
+                        item: usize,
                         view: &View<$real>,
-                        power: *mut f64,
-                        weight: f64,
+                        power: Power,
                     ) -> Failed {
                         use crate::physics::lanes::$avx512;
-                        unsafe { forces_in::<$avx512, F, L, V>(this, elements, range, view, power, weight) }
+                        unsafe { forces_in::<$avx512, F, L, V>(this, elements, item, view, power) }
                     }
                     match self.level {
-                        Level::Avx512 => {
-                            return unsafe { avx512(self, elements, range, view, power, weight) };
-                        }
-                        Level::Avx2 => return unsafe { avx2(self, elements, range, view, power, weight) },
+                        Level::Avx512 => return unsafe { avx512(self, elements, item, view, power) },
+                        Level::Avx2 => return unsafe { avx2(self, elements, item, view, power) },
                         Level::Portable => {}
                     }
                 }
-                unsafe { forces_in::<$portable, F, L, V>(self, elements, range, view, power, weight) }
-            }
-
-            unsafe fn energies(&self, elements: &Elements<$real>, view: &View<$real>) -> EnergyTotals {
-                unsafe { energies_of::<$real, F, L>(&self.law, elements, view) }
+                unsafe { forces_in::<$portable, F, L, V>(self, elements, item, view, power) }
             }
         }
     };

@@ -1,16 +1,18 @@
-use super::batches::{element_batches, node_batches, share};
-use super::elements::{self, Build, Composable, Elements, Kernel};
-use super::nodes::{Books, CHUNK, Conditions, NO_SURFACE, NodePass, NodeSums, Nodes};
+use super::elements::{self, Build, Composable, Elements, Failed, Kernel, Power};
+use super::energies::Stored;
+use super::layout::Layout;
+use super::nodes::{Books, Conditions, LineContact, LineSums, NO_SURFACE, NodePass, Nodes};
 use super::reduce::total;
 use super::rim::{Reaction, RimState};
-use super::state::{Field, PADDING, View, slot_sizes};
+use super::schedule::{Share, Task, shares};
+use super::state::{Aligned, Field, View};
 use super::team::SpinBarrier;
-use crate::engine::{Engine, EngineInfo, Probe, StageSetup, State, Step, SurfaceSum, Window};
+use crate::engine::{Engine, EngineInfo, Probe, StageSetup, State, Step, StepContact, SurfaceSum, Window};
 use crate::error::{Error, Result};
 use crate::model::mesh::Mesh;
 use crate::model::{Model, areas, frame};
 use crate::physics::friction::AnyFriction;
-use crate::physics::lanes::Level;
+use crate::physics::lanes::{Level, WIDEST};
 use crate::physics::node::{Loads, StepSize};
 use crate::physics::rim::{self, Coordinates};
 use crate::physics::road::Plane;
@@ -19,12 +21,22 @@ use crate::physics::tensor::{Vec3, vec3};
 use crate::scene::{Friction, Road, Scene};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// Elements below which another thread costs more in waiting than it saves: a few microseconds of a step.
+const ELEMENTS_A_THREAD: usize = 200;
+
 /// The CPU engine in precision `T`.
 pub struct CpuEngine<T> {
     kernel: Box<dyn Kernel<T>>,
     elements: Elements<T>,
     nodes: Nodes<T>,
+    /// Places of the mesh's nodes.
+    place: Vec<u32>,
+    stored: Stored,
+    /// Where the forces of a node are, by place: `slot_start[p]..slot_start[p + 1]` of `slot_at`.
+    slot_start: Vec<u32>,
+    slot_at: Vec<u32>,
     rim_nodes: Vec<usize>,
+    shares: Vec<Share>,
     road: Option<Road>,
     friction: Option<AnyFriction<T>>,
     gravity: Vec3<T>,
@@ -32,20 +44,22 @@ pub struct CpuEngine<T> {
     mesh: Option<Mesh>,
     setup: StageSetup,
     rim: RimState,
-    threads: usize,
     /// Origin of the engine's frame: positions are kept relative to it.
     frame: [f64; 3],
     grain: f64,
     x: Field<T>,
     v: Field<T>,
-    slots: Vec<T>,
-    stride: usize,
-    /// Viscous work so far of the window, by element batch [J].
+    f: Field<T>,
+    /// Viscous work so far of the window [J], by item and lane.
     power: Vec<f64>,
-    sums: Vec<NodeSums>,
+    sums: Vec<LineSums>,
     surface_nodes: Vec<u32>,
     surface: Vec<SurfaceSum>,
     last_touch: Vec<u64>,
+    /// By line that can touch, of even and of odd steps: one is summed up while the other is written.
+    contact: [Vec<LineContact>; 2],
+    step_contact: Vec<StepContact>,
+    touching_before: u32,
     steps: u64,
     window_steps: u64,
 }
@@ -54,7 +68,8 @@ impl<T: NodePass> CpuEngine<T>
 where
     Composable: Build<T>,
 {
-    /// An engine at rest in the reference shape, with the best instructions of this machine. `threads` = 0: all cores.
+    /// An engine at rest in the reference shape, with the best instructions of this machine. `threads` = 0: as many as
+    /// the mesh keeps busy, at most one a core.
     pub fn new(model: &Model, scene: &Scene, threads: usize) -> Self {
         CpuEngine::with_level(model, scene, threads, Level::detect())
     }
@@ -63,80 +78,122 @@ where
     pub fn with_level(model: &Model, scene: &Scene, threads: usize, level: Level) -> Self {
         assert!(level <= Level::detect(), "this machine has no {level:?}");
         let threads = match threads {
-            0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
+            0 => {
+                let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+                cores.min(model.element_count().div_ceil(ELEMENTS_A_THREAD))
+            }
             n => n,
         };
         let mesh = &model.mesh;
+        let width = elements::width(level, size_of::<T>() == 4);
+        let layout = Layout::new(model, scene.road.is_some(), width);
         let surface_nodes = if scene.road.is_some() { mesh.surface.clone() } else { Vec::new() };
-        let arms = mesh.rim.iter().map(|&n| sub64(mesh.nodes[n as usize], mesh.axle));
-        let rim = rim_state(model, arms.clone());
         let grain = frame::grain(mesh);
         let frame = frame::shift(grain, mesh.axle, [0.0; 3], scene.road.as_ref());
-        let width = elements::width(level, size_of::<T>() == 4);
-        let batches = element_batches(model, width);
-        let node_batches = node_batches(model, scene.road.is_some(), width);
-        let (stride, slots) = slot_sizes(mesh.hexes.len());
-        CpuEngine {
+        let (slot_start, slot_at) = slots_by_place(&layout);
+        let shares = shares(&layout, threads);
+        let mut engine = CpuEngine {
             kernel: elements::compose(model.element, model.law, model.viscosity, level),
-            power: vec![0.0; batches.len()],
-            sums: vec![NodeSums::default(); node_batches.len().div_ceil(CHUNK)],
-            elements: Elements {
-                hexes: mesh.hexes.clone(),
-                classes: model.classes.iter().map(|c| c.cast()).collect(),
-                batches,
-            },
+            power: vec![0.0; layout.items.len() * WIDEST],
+            sums: vec![LineSums::default(); layout.lines.len()],
+            contact: [0, 1].map(|_| vec![LineContact::default(); layout.surface_lines]),
             nodes: Nodes {
-                batches: node_batches,
-                mass: padded(model.mass.iter().copied()),
-                inverse_mass: padded(model.mass.iter().map(|m| 1.0 / m)),
-                corner_start: model.corner_start.clone(),
-                corners: model.corners.clone(),
-                surface_of: surface_index(model.node_count(), &surface_nodes),
-                rim_arms: Field::new(arms).components,
                 inverse_area: match (scene.friction, &scene.road) {
                     (Some(law), Some(road)) if law.needs_area() => {
                         inverse_areas(mesh, |n| mesh.nodes[n as usize], road)
                     }
                     _ => Vec::new(),
                 },
-                level,
+                ..nodes(model, &layout, &surface_nodes, level)
             },
-            rim_nodes: mesh.rim.iter().map(|&n| n as usize).collect(),
-            rim,
+            stored: stored(model, &layout, level),
+            rim_nodes: mesh.rim.iter().map(|&n| layout.place[n as usize] as usize).collect(),
+            rim: rim_state(model),
+            x: Field::zeros(layout.places),
+            v: Field::zeros(layout.places),
+            f: Field::zeros(layout.slots),
+            elements: Elements { shapes: shape_table(model, &layout, width), items: layout.items },
+            place: layout.place,
+            slot_start,
+            slot_at,
+            shares,
             road: scene.road,
             friction: scene.friction.as_ref().map(AnyFriction::new),
             mesh: scene.friction.filter(Friction::needs_area).map(|_| mesh.clone()),
             gravity: vec3(scene.gravity),
             setup: StageSetup::default(),
-            threads,
             frame,
             grain,
-            x: Field::new(mesh.nodes.iter().map(|&x| sub64(x, frame))),
-            v: Field::new(mesh.nodes.iter().map(|_| [0.0; 3])),
-            slots: vec![T::zero(); slots],
-            stride,
             surface: vec![SurfaceSum::default(); surface_nodes.len()],
             last_touch: vec![0; surface_nodes.len()],
             surface_nodes,
+            step_contact: Vec::new(),
+            touching_before: 0,
             steps: 0,
             window_steps: 0,
+        };
+        let mut x = Field::zeros(layout.places);
+        engine.fill(&mut x, &mesh.nodes, frame);
+        engine.x = x;
+        engine
+    }
+
+    /// Puts values by node at their places, and on the lanes beyond the end of a line its nodes over again, so that
+    /// no lane computes with anything but a body's numbers.
+    fn fill(&self, field: &mut Field<T>, values: &[[f64; 3]], origin: [f64; 3]) {
+        for line in &self.nodes.lines {
+            let vectors = line.nodes.len().div_ceil(self.width()) + 1;
+            for (i, &n) in line.nodes.iter().cycle().take(vectors * self.width()).enumerate() {
+                field.set(line.start + i, sub64(values[n as usize], origin));
+            }
         }
+    }
+
+    fn width(&self) -> usize {
+        elements::width(self.nodes.level, size_of::<T>() == 4)
     }
 
     fn view(&mut self) -> View<T> {
-        View {
-            x: self.x.pointers(),
-            v: self.v.pointers(),
-            slots: self.slots.as_mut_ptr(),
-            stride: self.stride,
-        }
+        View { x: self.x.pointers(), v: self.v.pointers(), f: self.f.pointers() }
     }
 
-    fn books(&mut self) -> Books {
-        Books {
+    fn books(&mut self) -> [Books; 2] {
+        let [even, odd] = self.contact.each_mut().map(|c| c.as_mut_ptr());
+        let mut books = |contact| Books {
             surface: self.surface.as_mut_ptr(),
             last_touch: self.last_touch.as_mut_ptr(),
             sums: self.sums.as_mut_ptr(),
+            contact,
+        };
+        [books(even), books(odd)]
+    }
+
+    /// Internal force of the node at a place: its slots, first to last.
+    ///
+    /// # Safety
+    /// No thread writes forces.
+    unsafe fn gather(&self, place: usize, view: &View<T>) -> Vec3<T> {
+        let slots = self.slot_start[place] as usize..self.slot_start[place + 1] as usize;
+        let mut f = [T::zero(); 3];
+        for (k, &slot) in self.slot_at[slots].iter().enumerate() {
+            for d in 0..3 {
+                let part = unsafe { *view.f[d].add(slot as usize) };
+                f[d] = if k == 0 { part } else { f[d] + part };
+            }
+        }
+        f
+    }
+
+    /// Clears the slots that are added to lane by lane.
+    fn clear_loose(&mut self) {
+        let width = self.width();
+        for line in self.nodes.lines.iter().filter(|l| l.loose) {
+            let length = (line.nodes.len().div_ceil(width) + 1) * width;
+            for &slot in &line.slots {
+                for d in 0..3 {
+                    self.f.component_mut(d)[slot..slot + length].fill(T::zero());
+                }
+            }
         }
     }
 
@@ -170,6 +227,8 @@ where
             rotation_rate: ((end - start) * (1.0 / step.dt)).to_cols_array_2d().map(vec3),
             axle_before: vec3(self.local(before)),
             weights: weights.map(s),
+            has_gravity: self.gravity.iter().any(|g| *g != T::zero()),
+            has_damping: self.setup.mass_damping != 0.0,
             number,
         }
     }
@@ -183,7 +242,7 @@ where
         let shift = frame::shift(self.grain, axle, self.frame, self.road.as_ref());
         for d in (0..3).filter(|&d| shift[d] != 0.0) {
             self.frame[d] += shift[d];
-            self.x.components[d].iter_mut().for_each(|x| *x -= T::from_f64(shift[d]));
+            self.x.component_mut(d).iter_mut().for_each(|x| *x -= T::from_f64(shift[d]));
         }
     }
 
@@ -195,14 +254,14 @@ where
     }
 
     fn absolute(&self, n: usize) -> [f64; 3] {
-        let x = self.x.get(n);
+        let x = self.x.get(self.place[n] as usize);
         std::array::from_fn(|d| x[d] + self.frame[d])
     }
 
     fn failure(&self, element: usize, time: f64) -> Error {
         let finite = |n: &u32| self.x.get(*n as usize).iter().all(|c| c.is_finite());
         let step = self.steps;
-        match self.elements.hexes[element].iter().all(finite) {
+        match self.stored.hexes[element].iter().all(finite) {
             true => Error::Inverted { step, time, element },
             false => Error::NotFinite { step, time, element },
         }
@@ -211,12 +270,12 @@ where
     /// Sums the reaction of the rubber (and of body forces on the rim nodes), node by node in order.
     ///
     /// # Safety
-    /// No thread writes slots or positions.
+    /// No thread writes forces or positions.
     unsafe fn reaction(&self, view: &View<T>, axle: [f64; 3]) -> Reaction {
         let mut sum = Reaction::default();
         for &n in &self.rim_nodes {
-            let f_int = unsafe { self.nodes.gather(n, view) };
-            let weight = |i: usize| (self.nodes.mass[n] * self.gravity[i]).to_f64();
+            let f_int = unsafe { self.gather(n, view) };
+            let weight = |i: usize| (self.nodes.mass.slice()[n] * self.gravity[i]).to_f64();
             let f: [f64; 3] = std::array::from_fn(|i| weight(i) - f_int[i].to_f64());
             let arm: [f64; 3] = std::array::from_fn(|i| unsafe { *view.x[i].add(n) }.to_f64() - axle[i]);
             for i in 0..3 {
@@ -237,21 +296,25 @@ where
     ) -> Option<(usize, usize)> {
         let (view, books) = (self.view(), self.books());
         let power = Pointer(self.power.as_mut_ptr());
+        let mut step_contact = std::mem::take(&mut self.step_contact);
+        let mut touching_before = self.touching_before;
         let mut rim = self.rim;
         let shared_rim = Pointer(&raw mut rim);
+        let host = Pointer(&raw mut step_contact);
+        let host_touching = Pointer(&raw mut touching_before);
         let failed = AtomicUsize::new(usize::MAX);
         let failed_step = AtomicUsize::new(usize::MAX);
-        let members = self.threads;
+        let members = self.shares.len();
         let barrier = SpinBarrier::new(members);
         let (first, engine) = (self.steps, &*self);
-        let (element_batches, chunks) = (engine.elements.batches.len(), engine.sums.len());
         let work = |member: usize| {
-            // SAFETY: element batches and node chunks are shared out without overlap, barriers stand between the
-            // passes, and the rim's state is written by member 0 only, after all have read it.
+            // SAFETY: shares do not overlap, barriers stand between what one writes and another reads, and the rim's
+            // state and the host's records are written by member 0 only.
             for (n, step) in steps.iter().enumerate() {
-                let range = share(element_batches, member, members);
+                let books = &books[n % 2];
+                let early = plan.get(n);
                 let bad =
-                    unsafe { engine.kernel.forces(&engine.elements, range, &view, power.get(), step.dtm()) };
+                    unsafe { engine.early(member, early, &view, books, power.get(), step.dtm(), false) };
                 if let Some(element) = bad.0 {
                     failed.fetch_min(element, Ordering::Relaxed);
                     failed_step.store(n, Ordering::Relaxed);
@@ -274,9 +337,13 @@ where
                 } else {
                     &plan[n]
                 };
-                let range = share(chunks, member, members);
-                unsafe { T::node_pass(&engine.nodes, conditions, range, &view, &books, false) };
+                unsafe { engine.late(member, conditions, &view, books, false, free_rim) };
                 barrier.wait();
+                if member == 0 && engine.road.is_some() {
+                    let (host, touching) = unsafe { (&mut *host.get(), &mut *host_touching.get()) };
+                    let lines = unsafe { std::slice::from_raw_parts(books.contact, engine.contact[0].len()) };
+                    host.push(contact_of(lines, step.dtm(), touching));
+                }
             }
         };
         std::thread::scope(|scope| {
@@ -287,26 +354,110 @@ where
             work(0);
         });
         self.rim = rim;
+        self.step_contact = step_contact;
+        self.touching_before = touching_before;
         let element = failed.load(Ordering::Relaxed);
         (element != usize::MAX).then(|| (failed_step.load(Ordering::Relaxed), element))
     }
 
+    /// A member's forces, and the nodes that may move before the threads meet. Without conditions none do: where the
+    /// rim is free they depend on its motion, and it on all forces.
+    ///
+    /// # Safety
+    /// No other thread works on this share.
+    #[allow(clippy::too_many_arguments)] // what a step needs
+    unsafe fn early(
+        &self,
+        member: usize,
+        conditions: Option<&Conditions<T>>,
+        view: &View<T>,
+        books: &Books,
+        power: *mut f64,
+        weight: f64,
+        probe: bool,
+    ) -> Failed {
+        let mut failed = Failed(None);
+        for task in &self.shares[member].early {
+            match (*task, conditions) {
+                (Task::Forces(item), _) => unsafe {
+                    let bad = self.forces(item as usize, view, power, weight);
+                    failed.0 = [failed.0, bad.0].into_iter().flatten().min();
+                },
+                (Task::Move(line), Some(c)) => unsafe {
+                    T::node_pass(&self.nodes, c, line as usize, view, books, probe);
+                },
+                (Task::Move(_), None) => {}
+            }
+        }
+        failed
+    }
+
+    /// Forces of an item.
+    ///
+    /// # Safety
+    /// As [`Kernel::forces`].
+    unsafe fn forces(&self, item: usize, view: &View<T>, power: *mut f64, weight: f64) -> Failed {
+        unsafe {
+            let power = Power { sums: power.add(item * WIDEST), weight };
+            self.kernel.forces(&self.elements, item, view, power)
+        }
+    }
+
+    /// The nodes of a member that wait for all forces, or all of its nodes.
+    ///
+    /// # Safety
+    /// No other thread works on this share.
+    unsafe fn late(
+        &self,
+        member: usize,
+        c: &Conditions<T>,
+        view: &View<T>,
+        books: &Books,
+        probe: bool,
+        all: bool,
+    ) {
+        let share = &self.shares[member];
+        let move_line = |line: u32| unsafe {
+            T::node_pass(&self.nodes, c, line as usize, view, books, probe);
+        };
+        for task in share.early.iter().filter(|_| all) {
+            if let Task::Move(line) = *task {
+                move_line(line);
+            }
+        }
+        share.late.iter().for_each(|line| move_line(*line));
+    }
+
     /// The step after the window, not taken.
     fn probe(&mut self, next: &Step) -> Probe {
-        let fresh = vec![NodeSums::default(); self.sums.len()];
+        let fresh = vec![LineSums::default(); self.sums.len()];
         let window = std::mem::replace(&mut self.sums, fresh);
         let mut power = vec![0.0; self.power.len()];
-        let (view, books) = (self.view(), self.books());
-        let (batches, chunks) = (self.elements.batches.len(), self.sums.len());
-        // SAFETY: this thread is the only one.
-        unsafe {
-            let weight = 0.5 * next.dt_before;
-            self.kernel.forces(&self.elements, 0..batches, &view, power.as_mut_ptr(), weight);
-            let reaction = self.reaction(&view, self.local(&self.rim.q));
-            let (q, _) = self.rim.advanced(&self.setup, next, &reaction);
-            let c = self.conditions(self.steps, next, &self.rim.q, &q, true);
-            T::node_pass(&self.nodes, &c, 0..chunks, &view, &books, true);
-        }
+        let (view, [books, _]) = (self.view(), self.books());
+        let shared_power = Pointer(power.as_mut_ptr());
+        let members = self.shares.len();
+        let barrier = SpinBarrier::new(members);
+        let engine = &*self;
+        let work = |member: usize| {
+            // SAFETY: as in `run_steps`; nothing but forces and sums is written.
+            unsafe {
+                let weight = 0.5 * next.dt_before;
+                engine.early(member, None, &view, &books, shared_power.get(), weight, true);
+                barrier.wait();
+                let reaction = engine.reaction(&view, engine.local(&engine.rim.q));
+                let (q, _) = engine.rim.advanced(&engine.setup, next, &reaction);
+                let c = engine.conditions(engine.steps, next, &engine.rim.q, &q, true);
+                barrier.wait();
+                engine.late(member, &c, &view, &books, true, true);
+            }
+        };
+        std::thread::scope(|scope| {
+            for member in 1..members {
+                let work = &work;
+                scope.spawn(move || work(member));
+            }
+            work(0);
+        });
         let totals = total(&std::mem::replace(&mut self.sums, window));
         let mut half_works = totals.works;
         half_works.viscous = -power.iter().sum::<f64>();
@@ -318,6 +469,34 @@ where
             internal_force: totals.internal_force2.sqrt(),
         }
     }
+}
+
+impl<T: NodePass> CpuEngine<T> {
+    /// sum 1/2 m v^2 [J].
+    fn kinetic(&self) -> f64 {
+        let square = |p: usize| self.v.get(p).iter().map(|c| c * c).sum::<f64>();
+        let one = |p: &u32| 0.5 * self.nodes.mass.slice()[*p as usize].to_f64() * square(*p as usize);
+        self.place.iter().map(one).sum()
+    }
+}
+
+/// A step's contact from its lines, first to last; `before`: nodes that touched in the step before.
+fn contact_of(lines: &[LineContact], dtm: f64, before: &mut u32) -> StepContact {
+    let mut sum = StepContact { dtm, ..StepContact::default() };
+    let (mut entered, mut switched) = (0, 0);
+    for line in lines {
+        for d in 0..3 {
+            sum.force[d] += line.force[d];
+        }
+        sum.touching += line.touching;
+        entered += line.entered;
+        switched += line.switched;
+    }
+    // Those of the step before that are not among the touching have left.
+    let left = before.saturating_sub(sum.touching - entered);
+    sum.changes = entered + switched + left;
+    *before = sum.touching;
+    sum
 }
 
 /// A pointer that threads may share under a pass's rules.
@@ -339,27 +518,90 @@ fn sub64(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|d| a[d] - b[d])
 }
 
-fn padded<T: Real>(values: impl Iterator<Item = f64>) -> Vec<T> {
-    values.map(T::from_f64).chain(std::iter::repeat_n(T::zero(), PADDING)).collect()
-}
-
-fn surface_index(nodes: usize, surface: &[u32]) -> Vec<u32> {
-    let mut index = vec![NO_SURFACE; nodes];
-    for (k, &n) in surface.iter().enumerate() {
-        index[n as usize] = k as u32;
+/// Data of the node pass by place.
+fn nodes<T: NodePass>(model: &Model, layout: &Layout, surface: &[u32], level: Level) -> Nodes<T> {
+    let place = |n: u32| layout.place[n as usize] as usize;
+    let (mut mass, mut inverse_mass) = (Aligned::zeros(layout.places), Aligned::zeros(layout.places));
+    for (n, &m) in model.mass.iter().enumerate() {
+        mass.slice_mut()[place(n as u32)] = T::from_f64(m);
+        inverse_mass.slice_mut()[place(n as u32)] = T::from_f64(1.0 / m);
     }
-    index
+    let mut surface_of = vec![NO_SURFACE; layout.places];
+    for (k, &n) in surface.iter().enumerate() {
+        surface_of[place(n)] = k as u32;
+    }
+    let mut rim_arms = Field::zeros(layout.places);
+    for &n in &model.mesh.rim {
+        rim_arms.set(place(n), sub64(model.mesh.nodes[n as usize], model.mesh.axle));
+    }
+    Nodes {
+        lines: layout.lines.clone(),
+        mass,
+        inverse_mass,
+        surface_of,
+        rim_arms,
+        inverse_area: Vec::new(),
+        level,
+    }
 }
 
-fn rim_state(model: &Model, arms: impl Iterator<Item = [f64; 3]>) -> RimState {
+fn stored(model: &Model, layout: &Layout, level: Level) -> Stored {
+    Stored {
+        element: model.element,
+        law: model.law,
+        level,
+        classes: model.classes.clone(),
+        class_of: model.class_of.clone(),
+        hexes: model.mesh.hexes.iter().map(|hex| hex.map(|n| layout.place[n as usize])).collect(),
+    }
+}
+
+/// Reference geometry by lanes, number by number.
+fn shape_table<T: Real>(model: &Model, layout: &Layout, width: usize) -> Aligned<T> {
+    let length = model.classes[0].numbers().len();
+    let mut table = Aligned::zeros(layout.shapes.len() * length * width);
+    for (lanes, part) in layout.shapes.iter().zip(table.slice_mut().chunks_exact_mut(length * width)) {
+        for (lane, class) in lanes[..width].iter().enumerate() {
+            for (i, number) in model.classes[*class as usize].numbers().iter().enumerate() {
+                part[i * width + lane] = T::from_f64(*number);
+            }
+        }
+    }
+    table
+}
+
+/// Slots of every place, in the order in which they are summed.
+fn slots_by_place(layout: &Layout) -> (Vec<u32>, Vec<u32>) {
+    let mut of_place = vec![&[][..]; layout.places];
+    let mut offset = vec![0; layout.places];
+    for line in &layout.lines {
+        for i in 0..line.nodes.len() {
+            of_place[line.start + i] = &line.slots;
+            offset[line.start + i] = i;
+        }
+    }
+    let (mut start, mut at) = (vec![0], Vec::new());
+    for (slots, offset) in of_place.iter().zip(&offset) {
+        at.extend(slots.iter().map(|slot| (slot + offset) as u32));
+        start.push(at.len() as u32);
+    }
+    (start, at)
+}
+
+fn rim_state(model: &Model) -> RimState {
     let mass = |n: &u32| model.mass[*n as usize];
-    let [x, y, z] = model.mesh.axle;
+    let axle = model.mesh.axle;
+    let [x, y, z] = axle;
     let rim = &model.mesh.rim;
+    let arm2 = |n: &u32| {
+        let arm = sub64(model.mesh.nodes[*n as usize], axle);
+        arm[0] * arm[0] + arm[2] * arm[2]
+    };
     RimState {
         q: [x, y, z, 0.0, 0.0, 0.0],
         rate: [0.0; 6],
         node_mass: rim.iter().map(mass).sum(),
-        node_inertia: rim.iter().zip(arms).map(|(n, a)| mass(n) * (a[0] * a[0] + a[2] * a[2])).sum(),
+        node_inertia: rim.iter().map(|n| mass(n) * arm2(n)).sum(),
     }
 }
 
@@ -373,7 +615,7 @@ where
             precision: if T::EPSILON < 1e-10 { "f64" } else { "f32" }.into(),
             device: format!("{} processor, {:?} lanes", std::env::consts::ARCH, self.nodes.level),
             driver: String::new(),
-            threads: self.threads,
+            threads: self.shares.len(),
         }
     }
 
@@ -393,7 +635,12 @@ where
             let numbered = (self.steps..).zip(steps).zip(starts);
             numbered.map(|((n, s), before)| self.conditions(n, s, before, &s.rim, false)).collect()
         };
+        let before = (self.x.clone(), self.v.clone(), self.rim);
         if let Some((taken, element)) = self.run_steps(steps, &plan, free_rim) {
+            // Some nodes of the failing step have moved already: take the steps before it again.
+            (self.x, self.v, self.rim) = before;
+            self.clear_loose();
+            self.run_steps(&steps[..taken], &plan, free_rim);
             self.steps += taken as u64;
             return Err(self.failure(element, steps[taken].time));
         }
@@ -411,7 +658,7 @@ where
         let viscous = -self.power.iter().sum::<f64>();
         self.power.fill(0.0);
         let committed = total(&self.sums);
-        self.sums.fill(NodeSums::default());
+        self.sums.fill(LineSums::default());
         let mut works = committed.works;
         works.viscous = viscous;
         works.internal -= viscous;
@@ -419,16 +666,13 @@ where
         let mut surface = std::mem::replace(&mut self.surface, fresh);
         for (k, (sum, &n)) in surface.iter_mut().zip(&self.surface_nodes).enumerate() {
             sum.x = self.absolute(n as usize);
-            sum.v = self.v.get(n as usize);
+            sum.v = self.v.get(self.place[n as usize] as usize);
             sum.touches = self.steps > 0 && self.last_touch[k] == self.steps;
             sum.sticks &= sum.touches;
         }
-        let view = self.view();
-        // SAFETY: no other thread runs.
-        let energies = unsafe { self.kernel.energies(&self.elements, &view) };
-        let square = |n: usize| self.v.get(n).iter().map(|c| c * c).sum::<f64>();
-        let count = self.nodes.surface_of.len();
-        let kinetic = (0..count).map(|n| 0.5 * self.nodes.mass[n].to_f64() * square(n)).sum();
+        let x = [0, 1, 2].map(|d| self.x.component(d));
+        let energies = self.stored.totals(&self.elements.items, x);
+        let kinetic = self.kinetic();
         let probe = self.probe(next);
         let window = Window {
             steps: std::mem::take(&mut self.window_steps),
@@ -436,7 +680,7 @@ where
             rim_impulse: committed.rim_impulse,
             rim_moment_impulse: committed.rim_moment_impulse,
             surface,
-            step_contact: Vec::new(),
+            step_contact: std::mem::take(&mut self.step_contact),
             rim: self.rim.q,
             rim_rate: self.rim.rate,
             kinetic,
@@ -451,15 +695,17 @@ where
     }
 
     fn state(&mut self) -> Result<State> {
-        let nodes = 0..self.nodes.surface_of.len();
+        let nodes = 0..self.place.len();
         Ok(State {
             x: nodes.clone().map(|n| self.absolute(n)).collect(),
-            v: nodes.map(|n| self.v.get(n)).collect(),
+            v: nodes.map(|n| self.v.get(self.place[n] as usize)).collect(),
         })
     }
 
     fn set_velocity(&mut self, v: &[[f64; 3]], rim_rate: &Coordinates) -> Result<()> {
-        self.v = Field::new(v.iter().copied());
+        let mut field = self.v.clone();
+        self.fill(&mut field, v, [0.0; 3]);
+        self.v = field;
         for component in 0..6 {
             if self.setup.free[component].is_some() {
                 self.rim.rate[component] = rim_rate[component];
@@ -469,37 +715,39 @@ where
     }
 
     fn set_state(&mut self, state: &State, rim: &Coordinates, rim_rate: &Coordinates) -> Result<()> {
-        let frame = self.frame;
-        self.x = Field::new(state.x.iter().map(|&x| sub64(x, frame)));
+        let mut field = self.x.clone();
+        self.fill(&mut field, &state.x, self.frame);
+        self.x = field;
         self.rim.q = *rim;
         self.follow();
         self.set_velocity(&state.v, rim_rate)
     }
 
     fn force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {
-        let frame = self.frame;
-        let mut x = Field::<T>::new(x.iter().map(|&x| sub64(x, frame)));
-        let mut v = Field::<T>::new(v.iter().copied());
+        let (mut at, mut rate) = (self.x.clone(), self.v.clone());
+        self.fill(&mut at, x, self.frame);
+        self.fill(&mut rate, v, [0.0; 3]);
+        let view = View { x: at.pointers(), v: rate.pointers(), f: self.f.pointers() };
         let mut power = vec![0.0; self.power.len()];
-        let slots = self.slots.as_mut_ptr();
-        let view = View { x: x.pointers(), v: v.pointers(), slots, stride: self.stride };
         let power = Pointer(power.as_mut_ptr());
-        let (batches, members) = (self.elements.batches.len(), self.threads);
         let engine = &*self;
         let work = |member: usize| {
-            let range = share(batches, member, members);
-            // SAFETY: batches are shared out without overlap; positions are only read.
-            unsafe { engine.kernel.forces(&engine.elements, range, &view, power.get(), 0.0) };
+            for item in engine.shares[member].items.clone() {
+                // SAFETY: shares do not overlap; positions are only read.
+                unsafe { engine.forces(item, &view, power.get(), 0.0) };
+            }
         };
         std::thread::scope(|scope| {
-            for member in 1..members {
+            for member in 1..engine.shares.len() {
                 let work = &work;
                 scope.spawn(move || work(member));
             }
             work(0);
         });
-        let nodes = 0..self.nodes.surface_of.len();
         // SAFETY: the threads have ended.
-        Ok(nodes.map(|n| unsafe { self.nodes.gather(n, &view) }.map(Real::to_f64)).collect())
+        let sum = |p: &u32| unsafe { self.gather(*p as usize, &view) }.map(Real::to_f64);
+        let forces = self.place.iter().map(sum).collect();
+        self.clear_loose();
+        Ok(forces)
     }
 }

@@ -1,13 +1,16 @@
 //! The reference engine: the same passes in the same order as the GPU's, in f64 or f32, on any number of threads
 //! with the same bits.
 
-mod batches;
+mod chains;
 mod elements;
+mod energies;
 mod engine;
 mod family;
+mod layout;
 mod nodes;
 mod reduce;
 mod rim;
+mod schedule;
 mod state;
 mod team;
 

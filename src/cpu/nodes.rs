@@ -1,56 +1,32 @@
 //! The node pass, several nodes at a time: gather, acceleration, contact projection, integration, and the
 //! book-keeping of every force.
 
-use super::batches::{NodeBatch, NodeKind};
-use super::state::View;
-use crate::engine::{SurfaceSum, Works};
+use super::layout::{Line, NodeBatch};
+use super::state::{Aligned, Field, View};
+use crate::engine::SurfaceSum;
 use crate::physics::contact::{self, Touch};
 use crate::physics::friction::AnyFriction;
-use crate::physics::lanes::{Array, Lanes, Level};
+use crate::physics::lanes::{Array, Lanes, Level, WIDEST};
 use crate::physics::node::{self, Loads, Prediction, StepSize};
 use crate::physics::road::Plane;
 use crate::physics::scalar::{Real, Scalar};
 use crate::physics::tensor::{Vec3, add, axpy, combined, cross, dot, scale, sub};
-use std::ops::Range;
 
-/// Batches whose sums are kept together, so that totals do not depend on the number of threads.
-pub const CHUNK: usize = 16;
 /// Surface index of a node that cannot touch.
 pub const NO_SURFACE: u32 = u32::MAX;
 
-/// Constant data of the node pass; arrays by node are padded for lanes.
+/// Constant data of the node pass; arrays are by place.
 pub struct Nodes<T> {
-    pub batches: Vec<NodeBatch>,
-    pub mass: Vec<T>,
-    pub inverse_mass: Vec<T>,
-    pub corner_start: Vec<u32>,
-    pub corners: Vec<u32>,
+    pub lines: Vec<Line>,
+    pub mass: Aligned<T>,
+    pub inverse_mass: Aligned<T>,
     /// Index among the surface nodes.
     pub surface_of: Vec<u32>,
-    /// Rim nodes' positions relative to the axle in the reference orientation, by component.
-    pub rim_arms: [Vec<T>; 3],
+    /// Rim nodes' positions relative to the axle in the reference orientation; zero for others.
+    pub rim_arms: Field<T>,
     /// One over the area of each surface node [1/m2], as of the last sample; empty unless friction looks at pressure.
     pub inverse_area: Vec<T>,
     pub level: Level,
-}
-
-impl<T: Real> Nodes<T> {
-    /// Internal force of a node: its corners' slots in fixed order.
-    ///
-    /// # Safety
-    /// No thread writes slots.
-    #[inline(always)]
-    pub unsafe fn gather(&self, n: usize, view: &View<T>) -> Vec3<T> {
-        let row = self.corner_start[n] as usize..self.corner_start[n + 1] as usize;
-        let mut f = [T::zero(); 3];
-        for &slot in &self.corners[row] {
-            let (element, corner) = ((slot >> 3) as usize, (slot & 7) as usize);
-            for d in 0..3 {
-                f[d] += unsafe { *view.slots.add(view.slot(corner, d) + element) };
-            }
-        }
-        f
-    }
 }
 
 /// Everything that is the same for all nodes of a step.
@@ -69,23 +45,52 @@ pub struct Conditions<T> {
     pub axle_before: Vec3<T>,
     /// Work of a force: f . (before v(n-1/2) + after v(n+1/2)).
     pub weights: [T; 2],
+    /// Whether there is a body force, and mass damping: neither is booked otherwise.
+    pub has_gravity: bool,
+    pub has_damping: bool,
     /// Number of the step, which touching nodes remember.
     pub number: u64,
 }
 
-/// Sums over a chunk of batches.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct NodeSums {
-    /// `internal` holds the work of the whole internal force, the viscous part included.
-    pub works: Works,
-    pub rim_impulse: [f64; 3],
-    pub rim_moment_impulse: [f64; 3],
-    pub mixed_kinetic: f64,
-    pub net_force2: f64,
-    pub internal_force2: f64,
+/// Sums of a line over the steps of a window, in double precision; arrays have one sum a lane.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
+pub struct LineSums {
+    /// Work of the whole internal force, the viscous part included.
+    pub internal: [f64; WIDEST],
+    pub body_force: [f64; WIDEST],
+    pub damping: [f64; WIDEST],
+    pub rim: [f64; WIDEST],
+    /// Internal force on rim nodes and its moment about the axle, times the mean step.
+    pub rim_impulse: [[f64; WIDEST]; 3],
+    pub rim_moment_impulse: [[f64; WIDEST]; 3],
+    pub mixed_kinetic: [f64; WIDEST],
+    pub net_force2: [f64; WIDEST],
+    pub internal_force2: [f64; WIDEST],
+    pub normal: f64,
+    pub friction: f64,
 }
 
-/// The same in lanes, while a chunk is worked on.
+impl Default for LineSums {
+    fn default() -> Self {
+        let none = [0.0; WIDEST];
+        LineSums {
+            internal: none,
+            body_force: none,
+            damping: none,
+            rim: none,
+            rim_impulse: [none; 3],
+            rim_moment_impulse: [none; 3],
+            mixed_kinetic: none,
+            net_force2: none,
+            internal_force2: none,
+            normal: 0.0,
+            friction: 0.0,
+        }
+    }
+}
+
+/// The same in lanes, while a line is worked on.
 #[derive(Clone, Copy)]
 struct LaneSums<N> {
     internal: N,
@@ -99,13 +104,25 @@ struct LaneSums<N> {
     internal_force2: N,
 }
 
-/// Window sums of the surface nodes and chunk sums, as raw as [`View`].
+/// Contact of a line in one step.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct LineContact {
+    pub force: [f64; 3],
+    pub touching: u32,
+    /// Of those: nodes that were free the step before, and nodes that changed between stick and slip.
+    pub entered: u32,
+    pub switched: u32,
+}
+
+/// Window sums of the surface nodes and of lines, as raw as [`View`].
 #[derive(Debug, Clone, Copy)]
 pub struct Books {
     pub surface: *mut SurfaceSum,
-    /// Last step in which a surface node touched (and whether it stuck), plus one; 0: never.
+    /// Last step in which a surface node touched, plus one; 0: never.
     pub last_touch: *mut u64,
-    pub sums: *mut NodeSums,
+    pub sums: *mut LineSums,
+    /// By line that can touch.
+    pub contact: *mut LineContact,
 }
 // SAFETY: as for View.
 unsafe impl Send for Books {}
@@ -125,74 +142,49 @@ fn splat3<N: Lanes>(v: Vec3<N::Real>) -> Vec3<N> {
     [N::splat(v[0]), N::splat(v[1]), N::splat(v[2])]
 }
 
-/// Loads the valid lanes only (the next nodes may be another thread's); the others are zero.
 #[inline(always)]
-unsafe fn load3<N: Lanes>(field: &[*mut N::Real; 3], at: usize, count: usize) -> Vec3<N> {
+unsafe fn load3<N: Lanes>(field: &[*mut N::Real; 3], at: usize) -> Vec3<N> {
+    unsafe { [N::load(field[0], at), N::load(field[1], at), N::load(field[2], at)] }
+}
+
+#[inline(always)]
+unsafe fn store3<N: Lanes>(v: Vec3<N>, field: &[*mut N::Real; 3], at: usize) {
     unsafe {
-        if count == N::WIDTH {
-            return [N::load(field[0], at), N::load(field[1], at), N::load(field[2], at)];
-        }
-        let mut some = [[<N::Real as Scalar>::zero(); 16]; 3];
-        for d in 0..3 {
-            for lane in 0..count {
-                some[d][lane] = *field[d].add(at + lane);
-            }
-        }
-        [N::load(some[0].as_ptr(), 0), N::load(some[1].as_ptr(), 0), N::load(some[2].as_ptr(), 0)]
+        v[0].store(field[0], at);
+        v[1].store(field[1], at);
+        v[2].store(field[2], at);
     }
 }
 
-/// Stores the valid lanes only: the next nodes may be another thread's.
 #[inline(always)]
-unsafe fn store3<N: Lanes>(v: Vec3<N>, field: &[*mut N::Real; 3], at: usize, count: usize) {
-    for d in 0..3 {
+fn choose3<N: Lanes>(a: Vec3<N>, other: Vec3<N>, mask: u32) -> Vec3<N> {
+    [a[0].choose(other[0], mask), a[1].choose(other[1], mask), a[2].choose(other[2], mask)]
+}
+
+/// Internal force of a batch: its slots, first to last. Slots that are added to lane by lane are cleared.
+#[inline(always)]
+unsafe fn internal_force<N: Lanes>(line: &Line, view: &View<N::Real>, offset: usize) -> Vec3<N> {
+    let mut f = [N::zero(); 3];
+    for (k, &slot) in line.slots.iter().enumerate() {
         unsafe {
-            if count == N::WIDTH {
-                v[d].store(field[d], at);
-            } else {
-                for lane in 0..count {
-                    *field[d].add(at + lane) = v[d].lane(lane);
-                }
+            let part = load3::<N>(&view.f, slot + offset);
+            f = if k == 0 { part } else { add(f, part) };
+            if line.loose {
+                store3([N::zero(); 3], &view.f, slot + offset);
             }
-        }
-    }
-}
-
-#[inline(always)]
-unsafe fn gather_batch<N: Lanes>(nodes: &Nodes<N::Real>, batch: &NodeBatch, view: &View<N::Real>) -> Vec3<N> {
-    if let Some(runs) = &batch.runs {
-        let mut f = [N::zero(); 3];
-        for &(corner, element) in runs {
-            for d in 0..3 {
-                f[d] += unsafe { N::load(view.slots, view.slot(corner, d) + element) };
-            }
-        }
-        return f;
-    }
-    // Lane by lane through memory; 16 is the widest.
-    let mut lanes = [[<N::Real as Scalar>::zero(); 16]; 3];
-    for lane in 0..batch.count {
-        let f = unsafe { nodes.gather(batch.first + lane, view) };
-        for d in 0..3 {
-            lanes[d][lane] = f[d];
-        }
-    }
-    unsafe { [N::load(lanes[0].as_ptr(), 0), N::load(lanes[1].as_ptr(), 0), N::load(lanes[2].as_ptr(), 0)] }
-}
-
-/// A force without its held components, which whatever holds them takes.
-#[inline(always)]
-fn moving<N: Lanes>(held: u8, f: Vec3<N>) -> Vec3<N> {
-    if held == 0 {
-        return f;
-    }
-    let mut f = f;
-    for d in 0..3 {
-        if held >> d & 1 == 1 {
-            f[d] = N::zero();
         }
     }
     f
+}
+
+/// A force without its held components, which whatever holds them takes; `held`: lanes by component.
+#[inline(always)]
+fn moving<N: Lanes>(held: [u32; 3], f: Vec3<N>) -> Vec3<N> {
+    if held == [0; 3] {
+        return f;
+    }
+    let zero = N::zero();
+    [zero.choose(f[0], held[0]), zero.choose(f[1], held[1]), zero.choose(f[2], held[2])]
 }
 
 /// New velocity and position of the lanes.
@@ -202,81 +194,98 @@ struct Moved<N> {
     v: Vec3<N>,
 }
 
+/// A line of nodes: one step, or (`PROBE`) only what it would do.
 #[inline(always)]
-unsafe fn pass_in<N: Lanes, const PROBE: bool>(
+unsafe fn line_in<N: Lanes, const PROBE: bool>(
     nodes: &Nodes<N::Real>,
     c: &Conditions<N::Real>,
-    chunks: Range<usize>,
+    number: usize,
     view: &View<N::Real>,
     books: &Books,
 ) {
-    let s = N::splat;
-    let loads = Loads { gravity: splat3(c.loads.gravity), alpha: s(c.loads.alpha) };
-    let lanes = LaneConditions {
-        dt: s(c.step.dt),
-        prediction: Prediction::new(&loads, StepSize { dt: s(c.step.dt), dtm: s(c.step.dtm) }),
-        loads,
-        weights: [s(c.weights[0]), s(c.weights[1])],
-        inverse_dtm: s(<N::Real as Scalar>::one() / c.step.dtm),
+    let line = unsafe { nodes.lines.get_unchecked(number) };
+    let lanes = LaneConditions::<N>::new(c);
+    let zero = N::zero();
+    let mut sums = LaneSums {
+        internal: zero,
+        body_force: zero,
+        damping: zero,
+        rim: zero,
+        impulse: [zero; 3],
+        moment: [zero; 3],
+        mixed_kinetic: zero,
+        net_force2: zero,
+        internal_force2: zero,
     };
-    for chunk in chunks {
-        let zero = N::zero();
-        let mut sums = LaneSums {
-            internal: zero,
-            body_force: zero,
-            damping: zero,
-            rim: zero,
-            impulse: [zero; 3],
-            moment: [zero; 3],
-            mixed_kinetic: zero,
-            net_force2: zero,
-            internal_force2: zero,
-        };
-        let end = ((chunk + 1) * CHUNK).min(nodes.batches.len());
-        for batch in &nodes.batches[chunk * CHUNK..end] {
-            unsafe {
-                let whole = gather_batch::<N>(nodes, batch, view);
-                let f_int = moving::<N>(batch.held, whole);
-                if PROBE && batch.held != 0 {
-                    // What holds a node pushes back, as a road does: it belongs to the scale of forces.
-                    let one = valid::<N>(batch.count);
-                    sums.internal_force2 += one * (dot(whole, whole) - dot(f_int, f_int));
-                }
-                let x = load3::<N>(&view.x, batch.first, batch.count);
-                let v = load3::<N>(&view.v, batch.first, batch.count);
-                let mass = N::load(nodes.mass.as_ptr(), batch.first);
-                let moved = match batch.kind {
-                    NodeKind::Rim(k) => carried::<N>(nodes, c, k),
-                    kind => {
-                        let w = N::load(nodes.inverse_mass.as_ptr(), batch.first);
-                        let v_star = lanes.prediction.velocity(w, f_int, v);
-                        let free = Moved { x: axpy(v_star, lanes.dt, x), v: v_star };
-                        match (kind, &c.road) {
-                            (NodeKind::Surface, Some(road)) => {
-                                touch::<N, PROBE>(nodes, c, road, batch, x, v, free, books, chunk)
-                            }
-                            _ => free,
-                        }
-                    }
-                };
-                book::<N, PROBE>(&mut sums, c, &lanes, batch, mass, f_int, x, v, &moved);
-                if !PROBE {
-                    store3(moved.x, &view.x, batch.first, batch.count);
-                    store3(moved.v, &view.v, batch.first, batch.count);
-                }
+    let mut contact = LineContact::default();
+    for (b, batch) in line.batches.iter().enumerate() {
+        let (offset, at) = (b * N::WIDTH, line.start + b * N::WIDTH);
+        unsafe {
+            let whole = internal_force::<N>(line, view, offset);
+            let f_int = moving::<N>(batch.held, whole);
+            if PROBE && batch.held != [0; 3] {
+                // What holds a node pushes back, as a road does: it belongs to the scale of forces.
+                let held = dot(whole, whole) - dot(f_int, f_int);
+                sums.internal_force2 += N::zero().choose(held, batch.rim);
+            }
+            let x = load3::<N>(&view.x, at);
+            let v = load3::<N>(&view.v, at);
+            let mass = N::load(nodes.mass.slice().as_ptr(), at);
+            let w = N::load(nodes.inverse_mass.slice().as_ptr(), at);
+            let v_star = lanes.prediction.velocity(w, f_int, v);
+            let mut moved = Moved { x: axpy(v_star, lanes.dt, x), v: v_star };
+            if let (true, Some(road)) = (batch.surface != 0, &c.road) {
+                let sums = &mut *books.sums.add(number);
+                moved =
+                    touch::<N, PROBE>(nodes, c, road, (at, batch), x, v, moved, books, sums, &mut contact);
+            }
+            if batch.rim != 0 {
+                let carried = carried::<N>(nodes, c, at);
+                moved.x = choose3(carried.x, moved.x, batch.rim);
+                moved.v = choose3(carried.v, moved.v, batch.rim);
+            }
+            book::<N, PROBE>(&mut sums, c, &lanes, batch.rim, mass, f_int, x, v, &moved);
+            if !PROBE {
+                store3(moved.x, &view.x, at);
+                store3(moved.v, &view.v, at);
             }
         }
-        fold(unsafe { &mut *books.sums.add(chunk) }, &sums, c.step.dtm.to_f64());
+    }
+    unsafe {
+        if line.closed && !PROBE {
+            let end = line.start + line.nodes.len();
+            for d in 0..3 {
+                *view.x[d].add(end) = *view.x[d].add(line.start);
+                *view.v[d].add(end) = *view.v[d].add(line.start);
+            }
+        }
+        if let (Some(k), false) = (line.surface, PROBE) {
+            *books.contact.add(k) = contact;
+        }
+        fold::<N, PROBE>(&mut *books.sums.add(number), &sums, c, line.has_rim);
+    }
+}
+
+impl<N: Lanes> LaneConditions<N> {
+    #[inline(always)]
+    fn new(c: &Conditions<N::Real>) -> Self {
+        let loads = Loads { gravity: splat3(c.loads.gravity), alpha: N::splat(c.loads.alpha) };
+        let size = StepSize { dt: N::splat(c.step.dt), dtm: N::splat(c.step.dtm) };
+        LaneConditions {
+            dt: size.dt,
+            prediction: Prediction::new(&loads, size),
+            loads,
+            weights: [N::splat(c.weights[0]), N::splat(c.weights[1])],
+            inverse_dtm: N::splat(<N::Real as Scalar>::one() / c.step.dtm),
+        }
     }
 }
 
 /// Rim nodes go where the rim puts them.
 #[inline(always)]
-unsafe fn carried<N: Lanes>(nodes: &Nodes<N::Real>, c: &Conditions<N::Real>, first: usize) -> Moved<N> {
-    let arms = &nodes.rim_arms;
-    let arm = unsafe {
-        [N::load(arms[0].as_ptr(), first), N::load(arms[1].as_ptr(), first), N::load(arms[2].as_ptr(), first)]
-    };
+unsafe fn carried<N: Lanes>(nodes: &Nodes<N::Real>, c: &Conditions<N::Real>, at: usize) -> Moved<N> {
+    let arms = [0, 1, 2].map(|d| nodes.rim_arms.component(d).as_ptr());
+    let arm = unsafe { [N::load(arms[0], at), N::load(arms[1], at), N::load(arms[2], at)] };
     let r = [splat3::<N>(c.rotation[0]), splat3(c.rotation[1]), splat3(c.rotation[2])];
     let rate = [splat3::<N>(c.rotation_rate[0]), splat3(c.rotation_rate[1]), splat3(c.rotation_rate[2])];
     Moved {
@@ -292,34 +301,31 @@ unsafe fn touch<N: Lanes, const PROBE: bool>(
     nodes: &Nodes<N::Real>,
     c: &Conditions<N::Real>,
     road: &Plane<N::Real>,
-    batch: &NodeBatch,
+    (at, batch): (usize, &NodeBatch),
     x: Vec3<N>,
     v: Vec3<N>,
     free: Moved<N>,
     books: &Books,
-    chunk: usize,
+    sums: &mut LineSums,
+    contact: &mut LineContact,
 ) -> Moved<N> {
     if !road.gap_in_lanes(free.x).any_negative() {
         return free;
     }
-    let mut moved = [[<N::Real as Scalar>::zero(); 16]; 6];
+    let mut moved = [[<N::Real as Scalar>::zero(); WIDEST]; 6];
     for d in 0..3 {
         unsafe {
             free.x[d].store(moved[d].as_mut_ptr(), 0);
             free.v[d].store(moved[3 + d].as_mut_ptr(), 0);
         }
     }
-    for lane in 0..batch.count {
-        let n = batch.first + lane;
-        let k = nodes.surface_of[n];
-        if k == NO_SURFACE {
-            continue;
-        }
+    for lane in (0..N::WIDTH).filter(|lane| batch.surface >> lane & 1 == 1) {
         let old = [x[0].lane(lane), x[1].lane(lane), x[2].lane(lane)];
         let before = [v[0].lane(lane), v[1].lane(lane), v[2].lane(lane)];
         let v_star = [moved[3][lane], moved[4][lane], moved[5][lane]];
-        let inertia = node::inertia(&c.loads, c.step, nodes.mass[n]);
-        let area = || nodes.inverse_area.get(k as usize).copied().unwrap_or(<N::Real as Scalar>::zero());
+        let k = nodes.surface_of[at + lane] as usize;
+        let inertia = node::inertia(&c.loads, c.step, nodes.mass.slice()[at + lane]);
+        let area = || nodes.inverse_area.get(k).copied().unwrap_or(<N::Real as Scalar>::zero());
         let Some(t) =
             contact::project_any(road, c.friction.as_ref(), area, inertia, c.step, old, before, v_star)
         else {
@@ -329,10 +335,15 @@ unsafe fn touch<N: Lanes, const PROBE: bool>(
             moved[d][lane] = t.x[d];
             moved[3 + d][lane] = t.v[d];
         }
-        unsafe { book_touch::<N::Real, PROBE>(c, k as usize, &t, before, books, chunk) };
+        unsafe { book_touch::<N::Real, PROBE>(c, k, &t, before, books, sums, contact) };
     }
-    let at = |r: usize| unsafe { N::load(moved[r].as_ptr(), 0) };
-    Moved { x: [at(0), at(1), at(2)], v: [at(3), at(4), at(5)] }
+    let row = moved.each_ref().map(|r| r.as_ptr());
+    unsafe {
+        Moved {
+            x: [N::load(row[0], 0), N::load(row[1], 0), N::load(row[2], 0)],
+            v: [N::load(row[3], 0), N::load(row[4], 0), N::load(row[5], 0)],
+        }
+    }
 }
 
 /// Works of a touching node and, where the step is taken, its window sums.
@@ -343,110 +354,120 @@ unsafe fn book_touch<T: Real, const PROBE: bool>(
     t: &Touch<T>,
     before: Vec3<T>,
     books: &Books,
-    chunk: usize,
+    sums: &mut LineSums,
+    contact: &mut LineContact,
 ) {
     let way = axpy(t.v, c.weights[1], scale(before, c.weights[0]));
-    let works = unsafe { &mut (*books.sums.add(chunk)).works };
     let friction_work = dot(t.tangential_force, way).to_f64();
-    works.normal += dot(t.normal_force, way).to_f64();
-    works.friction += friction_work;
+    sums.normal += dot(t.normal_force, way).to_f64();
+    sums.friction += friction_work;
     if PROBE {
         return;
     }
-    let sum = unsafe { &mut *books.surface.add(k) };
+    let (sum, last) = unsafe { (&mut *books.surface.add(k), &mut *books.last_touch.add(k)) };
     for d in 0..3 {
-        sum.impulse[d] += (t.normal_force[d] + t.tangential_force[d]).to_f64() * c.step.dtm.to_f64();
+        let force = (t.normal_force[d] + t.tangential_force[d]).to_f64();
+        sum.impulse[d] += force * c.step.dtm.to_f64();
+        contact.force[d] += force;
     }
+    let stays = *last == c.number && c.number > 0;
+    contact.touching += 1;
+    contact.entered += u32::from(!stays);
+    contact.switched += u32::from(stays && sum.sticks != t.sticks);
     sum.friction_work += friction_work;
     sum.touching += 1;
     sum.sticking += u32::from(t.sticks);
     sum.sticks = t.sticks;
-    unsafe { *books.last_touch.add(k) = c.number + 1 };
+    *last = c.number + 1;
 }
 
-/// Adds a batch's works and, for rim nodes, what the rim does to the rubber.
+/// Adds a batch's works and, for rim nodes, what the rim does to the rubber. Lanes that hold no node have neither mass
+/// nor force.
 #[allow(clippy::too_many_arguments)] // a batch's whole step
 #[inline(always)]
 fn book<N: Lanes, const PROBE: bool>(
     sums: &mut LaneSums<N>,
     c: &Conditions<N::Real>,
     lanes: &LaneConditions<N>,
-    batch: &NodeBatch,
+    rim: u32,
     mass: N,
     f_int: Vec3<N>,
     x: Vec3<N>,
     v: Vec3<N>,
     moved: &Moved<N>,
 ) {
-    // Lanes beyond the count hold other nodes: they count nothing.
-    let one = valid::<N>(batch.count);
-    let way = scale(axpy(moved.v, lanes.weights[1], scale(v, lanes.weights[0])), one);
+    let way = axpy(moved.v, lanes.weights[1], scale(v, lanes.weights[0]));
     let gravity = lanes.loads.gravity;
     sums.internal -= dot(f_int, way);
-    sums.body_force += mass * dot(gravity, way);
-    if PROBE {
-        sums.mixed_kinetic += one * (mass * dot(v, moved.v));
+    if c.has_gravity {
+        sums.body_force += mass * dot(gravity, way);
     }
-    if let NodeKind::Rim(_) = batch.kind {
+    if PROBE {
+        sums.mixed_kinetic += mass * dot(v, moved.v);
+    }
+    let zero = N::zero();
+    if rim != 0 {
         let net = scale(sub(moved.v, v), mass * lanes.inverse_dtm);
-        sums.rim += dot(sub(add(net, f_int), scale(gravity, mass)), way);
+        let work = dot(sub(add(net, f_int), scale(gravity, mass)), way);
+        sums.rim += work.choose(zero, rim);
         let arm = sub(x, splat3(c.axle_before));
-        let f = scale(f_int, one);
+        let f = choose3(f_int, [zero; 3], rim);
         sums.impulse = add(sums.impulse, f);
         sums.moment = add(sums.moment, cross(arm, f));
-        return;
     }
-    sums.damping += dot(node::damping_force(&lanes.loads, mass, v, moved.v), way);
+    if c.has_damping {
+        let work = dot(node::damping_force(&lanes.loads, mass, v, moved.v), way);
+        sums.damping += zero.choose(work, rim);
+    }
     if PROBE {
-        let net = scale(sub(moved.v, v), mass * lanes.inverse_dtm * one);
-        sums.net_force2 += dot(net, net);
-        sums.internal_force2 += one * dot(f_int, f_int);
+        let net = scale(sub(moved.v, v), mass * lanes.inverse_dtm);
+        sums.net_force2 += zero.choose(dot(net, net), rim);
+        sums.internal_force2 += zero.choose(dot(f_int, f_int), rim);
     }
 }
 
-/// One in the lanes below `count`, zero beyond.
+/// Adds a line's lanes to its sums in double precision.
 #[inline(always)]
-fn valid<N: Lanes>(count: usize) -> N {
-    if count == N::WIDTH {
-        return N::one();
+unsafe fn fold<N: Lanes, const PROBE: bool>(
+    line: &mut LineSums,
+    lanes: &LaneSums<N>,
+    c: &Conditions<N::Real>,
+    has_rim: bool,
+) {
+    unsafe {
+        lanes.internal.add_to(line.internal.as_mut_ptr());
+        if c.has_gravity {
+            lanes.body_force.add_to(line.body_force.as_mut_ptr());
+        }
+        if c.has_damping {
+            lanes.damping.add_to(line.damping.as_mut_ptr());
+        }
+        if has_rim {
+            let dtm = N::splat(c.step.dtm);
+            lanes.rim.add_to(line.rim.as_mut_ptr());
+            for d in 0..3 {
+                (lanes.impulse[d] * dtm).add_to(line.rim_impulse[d].as_mut_ptr());
+                (lanes.moment[d] * dtm).add_to(line.rim_moment_impulse[d].as_mut_ptr());
+            }
+        }
+        if PROBE {
+            (lanes.mixed_kinetic * N::from_f64(0.5)).add_to(line.mixed_kinetic.as_mut_ptr());
+            lanes.net_force2.add_to(line.net_force2.as_mut_ptr());
+            lanes.internal_force2.add_to(line.internal_force2.as_mut_ptr());
+        }
     }
-    let mut ones = [<N::Real as Scalar>::zero(); 16];
-    for one in ones.iter_mut().take(count) {
-        *one = <N::Real as Scalar>::one();
-    }
-    unsafe { N::load(ones.as_ptr(), 0) }
-}
-
-fn across<N: Lanes>(value: N) -> f64 {
-    (0..N::WIDTH).map(|lane| value.lane(lane).to_f64()).sum()
-}
-
-/// Adds a chunk's lanes to its sums in double precision.
-#[inline(always)]
-fn fold<N: Lanes>(chunk: &mut NodeSums, lanes: &LaneSums<N>, dtm: f64) {
-    chunk.works.internal += across(lanes.internal);
-    chunk.works.body_force += across(lanes.body_force);
-    chunk.works.damping += across(lanes.damping);
-    chunk.works.rim += across(lanes.rim);
-    for d in 0..3 {
-        chunk.rim_impulse[d] += dtm * across(lanes.impulse[d]);
-        chunk.rim_moment_impulse[d] += dtm * across(lanes.moment[d]);
-    }
-    chunk.mixed_kinetic += 0.5 * across(lanes.mixed_kinetic);
-    chunk.net_force2 += across(lanes.net_force2);
-    chunk.internal_force2 += across(lanes.internal_force2);
 }
 
 /// The node pass of a precision, in the lanes of a level.
 pub trait NodePass: Real {
-    /// Steps the nodes of some chunks; `probe`: only books what the step would do.
+    /// Steps the nodes of a line; `probe`: only books what the step would do.
     ///
     /// # Safety
-    /// No other thread touches these chunks' nodes, surface entries or sums, nor writes slots.
+    /// No other thread touches the line's nodes, slots, surface entries or sums.
     unsafe fn node_pass(
         nodes: &Nodes<Self>,
         c: &Conditions<Self>,
-        chunks: Range<usize>,
+        line: usize,
         view: &View<Self>,
         books: &Books,
         probe: bool,
@@ -459,7 +480,7 @@ macro_rules! node_pass {
             unsafe fn node_pass(
                 nodes: &Nodes<Self>,
                 c: &Conditions<Self>,
-                chunks: Range<usize>,
+                line: usize,
                 view: &View<Self>,
                 books: &Books,
                 probe: bool,
@@ -468,16 +489,16 @@ macro_rules! node_pass {
                 unsafe fn either<N: Lanes<Real = $real>>(
                     nodes: &Nodes<$real>,
                     c: &Conditions<$real>,
-                    chunks: Range<usize>,
+                    line: usize,
                     view: &View<$real>,
                     books: &Books,
                     probe: bool,
                 ) {
                     unsafe {
                         if probe {
-                            pass_in::<N, true>(nodes, c, chunks, view, books)
+                            line_in::<N, true>(nodes, c, line, view, books)
                         } else {
-                            pass_in::<N, false>(nodes, c, chunks, view, books)
+                            line_in::<N, false>(nodes, c, line, view, books)
                         }
                     }
                 }
@@ -487,33 +508,33 @@ macro_rules! node_pass {
                     unsafe fn avx2(
                         nodes: &Nodes<$real>,
                         c: &Conditions<$real>,
-                        chunks: Range<usize>,
+                        line: usize,
                         view: &View<$real>,
                         books: &Books,
                         probe: bool,
                     ) {
                         use crate::physics::lanes::$avx2;
-                        unsafe { either::<$avx2>(nodes, c, chunks, view, books, probe) }
+                        unsafe { either::<$avx2>(nodes, c, line, view, books, probe) }
                     }
                     #[target_feature(enable = "avx512f,fma")]
                     unsafe fn avx512(
                         nodes: &Nodes<$real>,
                         c: &Conditions<$real>,
-                        chunks: Range<usize>,
+                        line: usize,
                         view: &View<$real>,
                         books: &Books,
                         probe: bool,
                     ) {
                         use crate::physics::lanes::$avx512;
-                        unsafe { either::<$avx512>(nodes, c, chunks, view, books, probe) }
+                        unsafe { either::<$avx512>(nodes, c, line, view, books, probe) }
                     }
                     match nodes.level {
-                        Level::Avx512 => return unsafe { avx512(nodes, c, chunks, view, books, probe) },
-                        Level::Avx2 => return unsafe { avx2(nodes, c, chunks, view, books, probe) },
+                        Level::Avx512 => return unsafe { avx512(nodes, c, line, view, books, probe) },
+                        Level::Avx2 => return unsafe { avx2(nodes, c, line, view, books, probe) },
                         Level::Portable => {}
                     }
                 }
-                unsafe { either::<$portable>(nodes, c, chunks, view, books, probe) }
+                unsafe { either::<$portable>(nodes, c, line, view, books, probe) }
             }
         }
     };

@@ -1,19 +1,39 @@
 //! Sums in fixed order.
 
-use super::nodes::NodeSums;
+use super::nodes::LineSums;
+use crate::engine::Works;
+use crate::physics::lanes::WIDEST;
 
-/// Adds the chunks up, first to last.
-pub fn total(chunks: &[NodeSums]) -> NodeSums {
+/// Sums over all nodes.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NodeSums {
+    /// `internal` holds the work of the whole internal force, the viscous part included.
+    pub works: Works,
+    pub rim_impulse: [f64; 3],
+    pub rim_moment_impulse: [f64; 3],
+    pub mixed_kinetic: f64,
+    pub net_force2: f64,
+    pub internal_force2: f64,
+}
+
+/// Adds the lines up, first to last, lane by lane.
+pub fn total(lines: &[LineSums]) -> NodeSums {
     let mut sum = NodeSums::default();
-    for c in chunks {
-        sum.works.accumulate(&c.works);
-        for i in 0..3 {
-            sum.rim_impulse[i] += c.rim_impulse[i];
-            sum.rim_moment_impulse[i] += c.rim_moment_impulse[i];
+    let across = |lanes: &[f64; WIDEST]| lanes.iter().sum::<f64>();
+    for line in lines {
+        sum.works.internal += across(&line.internal);
+        sum.works.body_force += across(&line.body_force);
+        sum.works.damping += across(&line.damping);
+        sum.works.rim += across(&line.rim);
+        sum.works.normal += line.normal;
+        sum.works.friction += line.friction;
+        for d in 0..3 {
+            sum.rim_impulse[d] += across(&line.rim_impulse[d]);
+            sum.rim_moment_impulse[d] += across(&line.rim_moment_impulse[d]);
         }
-        sum.mixed_kinetic += c.mixed_kinetic;
-        sum.net_force2 += c.net_force2;
-        sum.internal_force2 += c.internal_force2;
+        sum.mixed_kinetic += across(&line.mixed_kinetic);
+        sum.net_force2 += across(&line.net_force2);
+        sum.internal_force2 += across(&line.internal_force2);
     }
     sum
 }

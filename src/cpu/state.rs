@@ -1,57 +1,90 @@
-//! The engine's arrays, one component a vector, padded so that lanes may read past the last item.
+//! The engine's arrays, by component, aligned and padded so that lanes load whole vectors.
 
-/// A vector field by components.
+use crate::physics::lanes::WIDEST;
+use crate::physics::scalar::Real;
+
+/// A cache line.
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C, align(64))]
+struct CacheLine([u64; 8]);
+
+/// Numbers that start on a cache line.
 #[derive(Debug, Clone)]
-pub struct Field<T> {
-    pub components: [Vec<T>; 3],
+pub struct Aligned<T> {
+    lines: Vec<CacheLine>,
+    kind: std::marker::PhantomData<T>,
 }
 
-/// Items that lanes may read beyond the end: the widest has 16.
-pub const PADDING: usize = 16;
-
-impl<T: Copy + crate::physics::scalar::Real> Field<T> {
-    pub fn new(values: impl Iterator<Item = [f64; 3]> + Clone) -> Self {
-        let component = |d: usize| {
-            let padding = std::iter::repeat_n(T::zero(), PADDING);
-            values.clone().map(|v| T::from_f64(v[d])).chain(padding).collect()
-        };
-        Field { components: [component(0), component(1), component(2)] }
+impl<T: Real> Aligned<T> {
+    /// At least `length` zeros, and what a whole vector may read beyond.
+    pub fn zeros(length: usize) -> Self {
+        let lines = (length + WIDEST).div_ceil(64 / size_of::<T>());
+        Aligned { lines: vec![CacheLine([0; 8]); lines], kind: std::marker::PhantomData }
     }
 
-    pub fn get(&self, n: usize) -> [f64; 3] {
-        [0, 1, 2].map(|d| self.components[d][n].to_f64())
+    pub fn slice(&self) -> &[T] {
+        bytemuck::cast_slice(&self.lines)
+    }
+
+    pub fn slice_mut(&mut self) -> &mut [T] {
+        bytemuck::cast_slice_mut(&mut self.lines)
+    }
+
+    pub fn pointer(&mut self) -> *mut T {
+        self.lines.as_mut_ptr().cast()
+    }
+}
+
+/// A vector field: three components, one behind the other.
+#[derive(Debug, Clone)]
+pub struct Field<T> {
+    all: Aligned<T>,
+    stride: usize,
+}
+
+impl<T: Real> Field<T> {
+    pub fn zeros(length: usize) -> Self {
+        // Components a third of a page apart, modulo pages: at equal distances they would share cache sets.
+        let per_line = 64 / size_of::<T>();
+        let lines = (length + WIDEST).div_ceil(per_line);
+        let stride = (lines + (64 + 21 - lines % 64) % 64) * per_line;
+        Field { all: Aligned::zeros(3 * stride), stride }
+    }
+
+    pub fn component(&self, d: usize) -> &[T] {
+        &self.all.slice()[d * self.stride..(d + 1) * self.stride]
+    }
+
+    pub fn component_mut(&mut self, d: usize) -> &mut [T] {
+        let range = d * self.stride..(d + 1) * self.stride;
+        &mut self.all.slice_mut()[range]
+    }
+
+    pub fn get(&self, at: usize) -> [f64; 3] {
+        [0, 1, 2].map(|d| self.component(d)[at].to_f64())
+    }
+
+    pub fn set(&mut self, at: usize, value: [f64; 3]) {
+        for d in 0..3 {
+            self.component_mut(d)[at] = T::from_f64(value[d]);
+        }
     }
 
     pub fn pointers(&mut self) -> [*mut T; 3] {
-        self.components.each_mut().map(|c| c.as_mut_ptr())
+        let all = self.all.pointer();
+        // SAFETY: within the allocation.
+        [0, 1, 2].map(|d| unsafe { all.add(d * self.stride) })
     }
 }
 
-/// Raw access for the threads of a step. Each writes its own elements' slots, then its own nodes; barriers between.
+/// Raw access for the threads of a step. Each writes the forces and the nodes of its own share; barriers between.
 #[derive(Debug, Clone, Copy)]
 pub struct View<T> {
     pub x: [*mut T; 3],
     pub v: [*mut T; 3],
-    /// Corner forces: component d of corner c of element e at `slot(c, d) + e`.
-    pub slots: *mut T,
-    pub stride: usize,
+    pub f: [*mut T; 3],
 }
 
 // SAFETY: the passes that dereference these pointers are unsafe functions whose callers keep threads apart.
 unsafe impl<T> Send for View<T> {}
 unsafe impl<T> Sync for View<T> {}
-
-impl<T> View<T> {
-    /// Start of a column of slots.
-    #[inline(always)]
-    pub fn slot(&self, corner: usize, d: usize) -> usize {
-        (corner * 3 + d) * self.stride
-    }
-}
-
-/// Slots of `elements` elements: their stride and total length.
-pub fn slot_sizes(elements: usize) -> (usize, usize) {
-    // An odd number of cache lines: 24 columns a power of two apart would share cache sets.
-    let stride = (elements + PADDING).div_ceil(16) | 1;
-    (16 * stride, 24 * 16 * stride + PADDING)
-}

@@ -4,7 +4,7 @@ use super::Gpu;
 use super::layout::{self, MeanClass, PointClass, PointGeometry};
 use crate::error::{Error, Result};
 use crate::model::Model;
-use crate::physics::element::Class;
+use crate::physics::element::{Class, hex8};
 use crate::scene::Element;
 use bytemuck::Pod;
 use std::collections::HashMap;
@@ -114,11 +114,12 @@ pub fn upload_classes(buffers: &mut Buffers, gpu: &Gpu, model: &Model) {
 
 fn point_class(class: &Class<f64>) -> PointClass {
     let points = std::array::from_fn(|q| {
-        let m = class.metric[q];
+        // The shaders' element coordinates run from -1 to 1.
+        let (m, unit) = (class.metric[q], hex8::TO_UNIT * hex8::TO_UNIT);
         PointGeometry {
-            metric: [m.xx, m.yy, m.zz].map(|v| v as f32),
+            metric: [m.xx, m.yy, m.zz].map(|v| (v * unit) as f32),
             det_j0: class.det_j0[q] as f32,
-            metric_off: [m.xy, m.xz, m.yz].map(|v| v as f32),
+            metric_off: [m.xy, m.xz, m.yz].map(|v| (v * unit) as f32),
             inverse_det_j0: (1.0 / class.det_j0[q]) as f32,
         }
     });

@@ -29,7 +29,7 @@ const RIM: u32 = 0x8000_0000;
 
 /// The GPU engine.
 pub struct GpuEngine {
-    gpu: Gpu,
+    pub(super) gpu: Gpu,
     choice: Choice,
     constants: Vec<(&'static str, f64)>,
     buffers: Buffers,
@@ -52,7 +52,7 @@ pub struct GpuEngine {
     counts: Counts,
     steps: u64,
     window_steps: u64,
-    steps_per_submit: usize,
+    pub(super) steps_per_submit: usize,
     fixed_submits: bool,
     surface_nodes: Vec<u32>,
 }
@@ -77,6 +77,20 @@ impl Counts {
         }
         let rows = groups.div_ceil(self.most_groups);
         [groups.div_ceil(rows), rows, 1]
+    }
+}
+
+/// One dispatch of a step.
+pub(super) struct Pass<'e> {
+    pub name: &'static str,
+    pub program: &'e Bound,
+    pub groups: [u32; 3],
+}
+
+impl Pass<'_> {
+    /// Records it for the step whose plan entry is `slot`.
+    pub fn dispatch(&self, pass: &mut wgpu::ComputePass, slot: usize) {
+        self.program.dispatch(pass, self.groups, (slot * STEP_STRIDE) as u32);
     }
 }
 
@@ -228,31 +242,43 @@ impl GpuEngine {
         self.gpu.queue.write_buffer(self.buffers.get("step"), 0, &bytes);
     }
 
-    /// Encodes the passes of one step whose plan entry is `slot`.
-    fn encode_step(&self, stage: &StagePrograms, pass: &mut wgpu::ComputePass, slot: usize) {
-        let offset = (slot * STEP_STRIDE) as u32;
-        self.force.dispatch(pass, self.counts.groups(self.counts.elements), offset);
-        if let Some(rim) = &stage.rim {
-            rim.dispatch(pass, [1, 1, 1], offset);
-        }
-        stage.node.dispatch(pass, self.counts.groups(self.counts.nodes), offset);
+    /// The passes of one step, in order.
+    pub(super) fn passes(&self) -> Vec<Pass<'_>> {
+        let stage = self.stage.as_ref().expect("a stage is composed before its passes are asked for");
+        let mut passes = vec![Pass {
+            name: "element_force",
+            program: &self.force,
+            groups: self.counts.groups(self.counts.elements),
+        }];
+        passes.extend(stage.rim.as_ref().map(|program| Pass { name: "rim", program, groups: [1, 1, 1] }));
+        passes.push(Pass {
+            name: "node",
+            program: &stage.node,
+            groups: self.counts.groups(self.counts.nodes),
+        });
+        passes
     }
 
-    /// Submits `steps` in one go and waits.
-    fn submit(&mut self, steps: &[Step], starts: &[Coordinates]) -> Result<()> {
+    /// Writes the plan of the steps of one submission.
+    pub(super) fn write_steps(&self, steps: &[Step], starts: &[Coordinates]) {
         let entry = |(n, (step, before)): (usize, (&Step, &Coordinates))| {
             let w = 0.5 * step.dtm();
             self.plan_entry(self.steps + n as u64, step, before, [w, w, step.dtm()])
         };
         let entries: Vec<layout::Step> = steps.iter().zip(starts).enumerate().map(entry).collect();
         self.write_plan(&entries);
+    }
+
+    /// Submits `steps` in one go and waits.
+    fn submit(&mut self, steps: &[Step], starts: &[Coordinates]) -> Result<()> {
         self.ready()?;
-        let stage = self.stage.as_ref().expect("it is ready");
+        self.write_steps(steps, starts);
+        let passes = self.passes();
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             for slot in 0..steps.len() {
-                self.encode_step(stage, &mut pass, slot);
+                passes.iter().for_each(|p| p.dispatch(&mut pass, slot));
             }
         }
         let begun = Instant::now();
@@ -262,9 +288,39 @@ impl GpuEngine {
         if !self.fixed_submits {
             self.steps_per_submit = ((SUBMIT.as_secs_f64() / each) as usize).clamp(1, PLAN);
         }
-        self.steps += steps.len() as u64;
-        self.window_steps += steps.len() as u64;
+        self.took(steps.len());
         Ok(())
+    }
+
+    pub(super) fn took(&mut self, steps: usize) {
+        self.steps += steps as u64;
+        self.window_steps += steps as u64;
+    }
+
+    /// Takes the steps by submissions, each made by `submit`.
+    pub(super) fn in_submissions(
+        &mut self,
+        steps: &[Step],
+        mut submit: impl FnMut(&mut Self, &[Step], &[Coordinates]) -> Result<()>,
+    ) -> Result<()> {
+        if steps.is_empty() {
+            return Ok(());
+        }
+        self.ready()?;
+        let first = self.steps;
+        let starts: Vec<Coordinates> =
+            std::iter::once(self.rim.q).chain(steps.iter().map(|s| s.rim)).take(steps.len()).collect();
+        let mut at = 0;
+        while at < steps.len() {
+            let end = (at + self.steps_per_submit).min(steps.len());
+            submit(self, &steps[at..end], &starts[at..end])?;
+            at = end;
+        }
+        if let (false, Some(last), Some(before)) = (self.has_free_rim(), steps.last(), starts.last()) {
+            self.rim.rate = std::array::from_fn(|c| (last.rim[c] - before[c]) / last.dt);
+            self.rim.q = last.rim;
+        }
+        self.check_steps(steps, first)
     }
 
     /// Turns what the device reported into an error, and checks that the last pass ran.
@@ -563,23 +619,7 @@ impl Engine for GpuEngine {
     }
 
     fn advance(&mut self, steps: &[Step]) -> Result<()> {
-        if steps.is_empty() {
-            return Ok(());
-        }
-        let first = self.steps;
-        let starts: Vec<Coordinates> =
-            std::iter::once(self.rim.q).chain(steps.iter().map(|s| s.rim)).take(steps.len()).collect();
-        let mut at = 0;
-        while at < steps.len() {
-            let end = (at + self.steps_per_submit).min(steps.len());
-            self.submit(&steps[at..end], &starts[at..end])?;
-            at = end;
-        }
-        if let (false, Some(last), Some(before)) = (self.has_free_rim(), steps.last(), starts.last()) {
-            self.rim.rate = std::array::from_fn(|c| (last.rim[c] - before[c]) / last.dt);
-            self.rim.q = last.rim;
-        }
-        self.check_steps(steps, first)
+        self.in_submissions(steps, Self::submit)
     }
 
     fn sample(&mut self, next: &Step) -> Result<Window> {

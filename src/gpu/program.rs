@@ -4,6 +4,7 @@ use super::Gpu;
 use super::compose::{Choice, Kernel};
 use super::layout::Step;
 use crate::error::Result;
+use naga::valid::{Capabilities, GlobalUse, ValidationFlags, Validator};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
@@ -13,6 +14,17 @@ pub struct Binding {
     pub name: String,
     pub index: u32,
     pub kind: BindingKind,
+    /// What the code does with it, whatever its declaration allows.
+    pub read: bool,
+    pub written: bool,
+}
+
+impl Binding {
+    /// Bytes that a pass moves through it if it reads, or writes, all of a buffer of `size` bytes once.
+    pub fn touched(&self, size: u64) -> u64 {
+        let size = if self.kind == BindingKind::Step { size_of::<Step>() as u64 } else { size };
+        size * (u64::from(self.read) + u64::from(self.written))
+    }
 }
 
 /// What is bound.
@@ -26,9 +38,13 @@ pub enum BindingKind {
     Uniform,
 }
 
-/// Bindings of a module, by index.
+/// Bindings of a valid module with one entry point, by index.
 pub fn bindings(module: &naga::Module) -> Vec<Binding> {
-    let binding = |v: &naga::GlobalVariable| {
+    let analysis = Validator::new(ValidationFlags::all(), Capabilities::default())
+        .validate(module)
+        .expect("only valid modules are asked for their bindings");
+    let entry = analysis.get_entry_point(0);
+    let binding = |(handle, v): (naga::Handle<naga::GlobalVariable>, &naga::GlobalVariable)| {
         let kind = match v.space {
             naga::AddressSpace::Storage { access } => {
                 BindingKind::Storage { writes: access.contains(naga::StorageAccess::STORE) }
@@ -37,9 +53,16 @@ pub fn bindings(module: &naga::Module) -> Vec<Binding> {
             naga::AddressSpace::Uniform => BindingKind::Uniform,
             _ => return None,
         };
-        Some(Binding { name: v.name.clone()?, index: v.binding?.binding, kind })
+        let used = entry[handle];
+        Some(Binding {
+            name: v.name.clone()?,
+            index: v.binding?.binding,
+            kind,
+            read: used.intersects(GlobalUse::READ | GlobalUse::ATOMIC),
+            written: used.intersects(GlobalUse::WRITE | GlobalUse::ATOMIC),
+        })
     };
-    let mut all: Vec<Binding> = module.global_variables.iter().filter_map(|(_, v)| binding(v)).collect();
+    let mut all: Vec<Binding> = module.global_variables.iter().filter_map(binding).collect();
     all.sort_by_key(|b| b.index);
     all
 }
@@ -65,15 +88,30 @@ impl Program {
     /// declares are set.
     pub fn new(gpu: &Gpu, choice: &Choice, kernel: Kernel, constants: &[(&str, f64)]) -> Result<Program> {
         let module = choice.module(kernel)?;
+        Program::of_module(gpu, (choice.text(kernel), module), &format!("{kernel:?}"), constants)
+    }
+
+    /// A program of one file, composed with nothing.
+    pub fn alone(gpu: &Gpu, label: &str, text: &str, constants: &[(&str, f64)]) -> Result<Program> {
+        let module = naga::front::wgsl::parse_str(text).map_err(|e| gpu.error(e.emit_to_string(text)))?;
+        Program::of_module(gpu, (text.to_string(), module), label, constants)
+    }
+
+    fn of_module(
+        gpu: &Gpu,
+        (text, module): (String, naga::Module),
+        label: &str,
+        constants: &[(&str, f64)],
+    ) -> Result<Program> {
         let declared = |name: &str| module.overrides.iter().any(|(_, o)| o.name.as_deref() == Some(name));
         let constants: Vec<(&str, f64)> = constants.iter().copied().filter(|(n, _)| declared(n)).collect();
         let bits = constants.iter().map(|(name, value)| (name.to_string(), value.to_bits())).collect();
-        let key = (choice.text(kernel), bits);
+        let key = (text, bits);
         let known = |gpu: &Gpu| gpu.programs.0.lock().expect("no one panics holding it").get(&key).cloned();
         if let Some(program) = known(gpu) {
             return Ok(program);
         }
-        let program = Program::compile(gpu, module, &format!("{kernel:?}"), &constants);
+        let program = Program::compile(gpu, module, label, &constants);
         gpu.check()?;
         gpu.programs.0.lock().expect("no one panics holding it").insert(key, program.clone());
         Ok(program)

@@ -14,12 +14,15 @@ use crate::physics::rim::SPIN;
 pub struct Bound {
     program: Program,
     group: wgpu::BindGroup,
+    /// Bytes of the bindings it reads, plus those it writes.
+    pub touched: u64,
 }
 
 impl Bound {
     pub fn new<'b>(gpu: &Gpu, program: Program, of: impl Fn(&str) -> &'b wgpu::Buffer) -> Bound {
+        let touched = program.bindings.iter().map(|b| b.touched(of(&b.name).size())).sum();
         let group = program.bind(gpu, of);
-        Bound { program, group }
+        Bound { program, group, touched }
     }
 
     /// Records one dispatch; `offset` into the plan is not read by programs without a step.

@@ -65,15 +65,6 @@ pub struct Equations {
     pub rhs: [f64; 3],
 }
 
-impl Equations {
-    /// Only a change of frame.
-    pub fn framed(columns: Block) -> Equations {
-        let zero = [0.0; 3];
-        let rows = transposed(&columns);
-        Equations { rows, columns, fixed: [false; 3], known: zero, diagonal: [zero; 3], rhs: zero }
-    }
-}
-
 /// n and two unit tangents, as rows.
 pub fn frame(n: Vec3<f64>) -> Block {
     let least = (0..3).min_by(|&a, &b| n[a].abs().total_cmp(&n[b].abs())).unwrap_or(0);

@@ -1,6 +1,9 @@
-//! Sparse direct solution: Cholesky where the matrix is symmetric, LU where it is not (or not positive).
+//! Solution by sparse factors: Cholesky's where the matrix is symmetric. Where slip or viscosity makes it not, Cholesky's
+//! factors of its symmetric part precondition GMRES, which is ten times as fast on the paper's mesh as LU factors; those
+//! are taken where the symmetric part is not positive, or GMRES takes too long.
 
-use super::krylov::LinearSolver;
+use super::krylov::{Krylov, LinearSolver, Preconditioner};
+use super::matrix::BlockMatrix;
 use super::system::System;
 use crate::physics::tensor::Vec3;
 use faer::prelude::Solve;
@@ -8,70 +11,137 @@ use faer::sparse::linalg::solvers::{Llt, Lu};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Side};
 
+/// Residual that GMRES goes down to, relative, and the iterations after which LU factors would have been faster.
+const TOLERANCE: f64 = 1e-12;
+const MOST: usize = 60;
+
 enum Factors {
-    Cholesky(Box<Llt<usize, f64>>),
-    Lu(Box<Lu<usize, f64>>),
+    Cholesky(Factored<Llt<usize, f64>>),
+    /// Of the symmetric part.
+    Half(Box<Krylov<SymmetricPart>>),
+    Lu(Box<Factored<Lu<usize, f64>>>),
 }
 
-/// Factors of the last matrix.
+/// Solves with the factors of the last matrix.
 #[derive(Default)]
 pub struct Direct {
     factors: Option<Factors>,
-    /// Number of every unknown that is not fixed.
-    numbers: Vec<[Option<usize>; 3]>,
-    unknowns: usize,
-    /// Of the matrix handed over: the library does not say what its factors hold.
-    bytes: usize,
 }
 
 impl LinearSolver for Direct {
     fn prepare(&mut self, system: &System) -> Option<()> {
         self.factors = None;
-        self.number(system);
-        let matrix = self.sparse(system)?;
-        self.bytes = matrix.compute_nnz() * 16;
-        if system.symmetric
-            && let Ok(llt) = matrix.sp_cholesky(Side::Lower)
-        {
-            self.factors = Some(Factors::Cholesky(Box::new(llt)));
-            return Some(());
-        }
-        self.factors = Some(Factors::Lu(Box::new(matrix.sp_lu().ok()?)));
+        let mut half = SymmetricPart::default();
+        self.factors = Some(match (half.prepare(system), system.symmetric) {
+            (Some(()), true) => Factors::Cholesky(half.factors?),
+            (Some(()), false) => {
+                Factors::Half(Box::new(Krylov { preconditioner: half, tolerance: TOLERANCE, most: MOST }))
+            }
+            (None, _) => Factors::Lu(lu(system)?),
+        });
         Some(())
     }
 
     fn solve(&mut self, system: &System, b: &[Vec3<f64>]) -> Option<(Vec<Vec3<f64>>, usize)> {
-        let mut column = Col::<f64>::zeros(self.unknowns);
-        self.each(|n, i, k| column[k] = b[n][i]);
-        let y = match self.factors.as_ref()? {
-            Factors::Cholesky(llt) => llt.solve(&column),
-            Factors::Lu(lu) => lu.solve(&column),
-        };
-        let mut out = vec![[0.0; 3]; system.rhs.len()];
-        self.each(|n, i, k| out[n][i] = y[k]);
-        out.iter().flatten().all(|c| c.is_finite()).then_some((out, 1))
+        let once = |y: Vec<Vec3<f64>>| y.iter().flatten().all(|c| c.is_finite()).then_some((y, 1));
+        match self.factors.as_mut()? {
+            Factors::Cholesky(factors) => return once(factors.solve(b)),
+            Factors::Lu(factors) => return once(factors.solve(b)),
+            Factors::Half(krylov) => {
+                if let Some(solved) = krylov.solve(system, b) {
+                    return Some(solved);
+                }
+            }
+        }
+        let factors = lu(system)?;
+        let y = factors.solve(b);
+        self.factors = Some(Factors::Lu(factors));
+        once(y)
     }
 
+    /// Of the matrix handed over: the library does not say what its factors hold.
     fn bytes(&self) -> usize {
-        self.bytes
+        match &self.factors {
+            None => 0,
+            Some(Factors::Cholesky(f)) => f.bytes,
+            Some(Factors::Half(f)) => f.bytes(),
+            Some(Factors::Lu(f)) => f.bytes,
+        }
     }
 }
 
-impl Direct {
-    fn number(&mut self, system: &System) {
-        let mut next = 0;
+fn lu(system: &System) -> Option<Box<Factored<Lu<usize, f64>>>> {
+    let numbers = Numbers::new(system);
+    let matrix = numbers.sparse(&system.matrix, |own, _| own)?;
+    let bytes = matrix.compute_nnz() * 16;
+    Some(Box::new(Factored { bytes, factors: matrix.sp_lu().ok()?, numbers }))
+}
+
+/// Cholesky's factors of a matrix's symmetric part.
+#[derive(Default)]
+pub struct SymmetricPart {
+    factors: Option<Factored<Llt<usize, f64>>>,
+}
+
+impl Preconditioner for SymmetricPart {
+    fn prepare(&mut self, system: &System) -> Option<()> {
+        self.factors = None;
+        let numbers = Numbers::new(system);
+        let near = system.near.as_ref().unwrap_or(&system.matrix);
+        let matrix = numbers.sparse(near, |own, mirrored| 0.5 * (own + mirrored))?;
+        let factors = matrix.sp_cholesky(Side::Lower).ok()?;
+        self.factors = Some(Factored { bytes: matrix.compute_nnz() * 16, factors, numbers });
+        Some(())
+    }
+
+    fn apply(&mut self, _system: &System, r: &[Vec3<f64>], z: &mut [Vec3<f64>]) {
+        z.copy_from_slice(&self.factors.as_ref().expect("prepared").solve(r));
+    }
+
+    fn bytes(&self) -> usize {
+        self.factors.as_ref().map_or(0, |f| f.bytes)
+    }
+}
+
+/// Factors with the numbers of their unknowns.
+struct Factored<F> {
+    factors: F,
+    numbers: Numbers,
+    bytes: usize,
+}
+
+impl<F: Solve<f64>> Factored<F> {
+    fn solve(&self, b: &[Vec3<f64>]) -> Vec<Vec3<f64>> {
+        let mut column = Col::<f64>::zeros(self.numbers.count);
+        self.numbers.each(|n, i, k| column[k] = b[n][i]);
+        let y = self.factors.solve(&column);
+        let mut out = vec![[0.0; 3]; b.len()];
+        self.numbers.each(|n, i, k| out[n][i] = y[k]);
+        out
+    }
+}
+
+/// Number of every unknown that is not fixed.
+struct Numbers {
+    of: Vec<[Option<usize>; 3]>,
+    count: usize,
+}
+
+impl Numbers {
+    fn new(system: &System) -> Numbers {
+        let mut count = 0;
         let mut take = |fixed: bool| {
             (!fixed).then(|| {
-                next += 1;
-                next - 1
+                count += 1;
+                count - 1
             })
         };
-        self.numbers = system.fixed.iter().map(|f| f.map(&mut take)).collect();
-        self.unknowns = next;
+        let of = system.fixed.iter().map(|f| f.map(&mut take)).collect();
+        Numbers { of, count }
     }
 
     fn each(&self, mut f: impl FnMut(usize, usize, usize)) {
-        for (n, numbers) in self.numbers.iter().enumerate() {
+        for (n, numbers) in self.of.iter().enumerate() {
             for (i, number) in numbers.iter().enumerate() {
                 if let Some(k) = number {
                     f(n, i, *k);
@@ -80,17 +150,20 @@ impl Direct {
         }
     }
 
-    fn sparse(&self, system: &System) -> Option<SparseColMat<usize, f64>> {
-        let mut triplets = Vec::new();
-        self.each(|n, i, k| {
-            for (m, block) in system.matrix.row(n) {
-                for (j, number) in self.numbers[m].iter().enumerate() {
-                    if let Some(l) = number {
-                        triplets.push(Triplet::new(k, *l, block[i][j]));
+    /// The matrix whose entries are `of` an entry and the one across the diagonal.
+    fn sparse(&self, matrix: &BlockMatrix, of: impl Fn(f64, f64) -> f64) -> Option<SparseColMat<usize, f64>> {
+        let mut triplets = Vec::with_capacity(9 * matrix.blocks.len());
+        let a = matrix;
+        for (n, numbers) in self.of.iter().enumerate() {
+            for (m, block) in a.row(n) {
+                let across = &a.blocks[a.entry(m, n as u32)];
+                for (i, k) in numbers.iter().enumerate().filter_map(|(i, k)| Some((i, (*k)?))) {
+                    for (j, l) in self.of[m].iter().enumerate().filter_map(|(j, l)| Some((j, (*l)?))) {
+                        triplets.push(Triplet::new(k, l, of(block[i][j], across[j][i])));
                     }
                 }
             }
-        });
-        SparseColMat::try_new_from_triplets(self.unknowns, self.unknowns, &triplets).ok()
+        }
+        SparseColMat::try_new_from_triplets(self.count, self.count, &triplets).ok()
     }
 }

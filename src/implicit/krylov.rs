@@ -8,6 +8,11 @@ use crate::physics::tensor::Vec3;
 pub trait LinearSolver {
     /// Readies the solver for a matrix. `None`: it cannot be solved (singular).
     fn prepare(&mut self, system: &System) -> Option<()>;
+    /// Readies the solver for a matrix with the same fixed unknowns as the last one, and nearly its entries: an
+    /// iterative solver may keep its preconditioner.
+    fn prepare_near(&mut self, system: &System) -> Option<()> {
+        self.prepare(system)
+    }
     /// y with A y = b, and the iterations it took (1 for a direct solver). `None`: no convergence.
     fn solve(&mut self, system: &System, b: &[Vec3<f64>]) -> Option<(Vec<Vec3<f64>>, usize)>;
     /// Bytes held for the last matrix.
@@ -56,6 +61,10 @@ pub struct Krylov<P> {
 impl<P: Preconditioner> LinearSolver for Krylov<P> {
     fn prepare(&mut self, system: &System) -> Option<()> {
         self.preconditioner.prepare(system)
+    }
+
+    fn prepare_near(&mut self, _system: &System) -> Option<()> {
+        Some(())
     }
 
     fn solve(&mut self, system: &System, b: &[Vec3<f64>]) -> Option<(Vec<Vec3<f64>>, usize)> {

@@ -32,28 +32,48 @@ const DIRECT_NODES: usize = 6_000;
 /// Residual of the linear systems, relative: below what Newton's method is asked for, so that it stays quadratic.
 const LINEAR: f64 = 1e-9;
 
+/// Residual of a correction between sweeps, relative: the sweeps change the active set in between, so that more is
+/// lost. And the most iterations it may take.
+const CORRECTION: f64 = 1e-2;
+
 /// What a scene's choice of solver amounts to on its mesh.
 ///
 /// # Errors
 /// [`crate::Error::Unsupported`] where the mesh cannot be coarsened and multigrid is asked for.
 pub fn inner(scene: &Scene, model: &Model, choice: ImplicitSolver) -> Result<Inner> {
-    let linear = match choice {
-        ImplicitSolver::Relaxation { omega, tolerance, sweeps } => {
-            return Ok(Inner::Relaxation(relax::Relaxation { omega, tolerance, sweeps }));
+    Ok(match choice {
+        ImplicitSolver::ActiveSet(choice) => Inner::ActiveSet(linear(scene, model, choice, LINEAR)?),
+        ImplicitSolver::Relaxation { omega, tolerance, sweeps, corrections } => {
+            let relaxation = relax::Relaxation { omega, tolerance, sweeps };
+            match corrections {
+                None => Inner::Relaxation(relaxation),
+                Some(choice) => {
+                    let solver = linear(scene, model, choice, CORRECTION)?;
+                    Inner::Corrected(relaxation, relax::Corrections::new(solver))
+                }
+            }
         }
-        ImplicitSolver::ActiveSet(linear) => linear,
-    };
+    })
+}
+
+/// A linear solver that goes down to a relative residual of `tolerance` if it is iterative.
+fn linear(
+    scene: &Scene,
+    model: &Model,
+    choice: Linear,
+    tolerance: f64,
+) -> Result<Box<dyn krylov::LinearSolver>> {
     let small = model.node_count() <= DIRECT_NODES;
-    Ok(Inner::ActiveSet(match linear {
+    Ok(match choice {
         Linear::Direct => Box::new(direct::Direct::default()),
         Linear::Auto if small => Box::new(direct::Direct::default()),
         Linear::BlockJacobi => {
             let preconditioner = krylov::BlockJacobi::default();
-            Box::new(krylov::Krylov { preconditioner, tolerance: LINEAR, most: 20_000 })
+            Box::new(krylov::Krylov { preconditioner, tolerance, most: 20_000 })
         }
         Linear::Auto | Linear::Multigrid => {
-            let preconditioner = multigrid::Multigrid::new(scene, model)?;
-            Box::new(krylov::Krylov { preconditioner, tolerance: LINEAR, most: 500 })
+            let preconditioner = multigrid::Multigrid::new(&scene.body.mesh)?;
+            Box::new(krylov::Krylov { preconditioner, tolerance, most: 500 })
         }
-    }))
+    })
 }

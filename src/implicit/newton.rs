@@ -5,7 +5,7 @@ use super::contact::Status;
 use super::krylov::LinearSolver;
 use super::matrix::BlockMatrix;
 use super::problem::{Increment, Iterate, Problem, Residual};
-use super::relax::{self, Relaxation};
+use super::relax::{self, Corrections, Linearised, Relaxation};
 use super::system::{Correction, System};
 
 /// What solves the linearised equations with their contact conditions.
@@ -14,6 +14,8 @@ pub enum Inner {
     ActiveSet(Box<dyn LinearSolver>),
     /// Relaxation over node blocks with the contact laws imposed node by node.
     Relaxation(Relaxation),
+    /// The same with linear corrections between the sweeps.
+    Corrected(Relaxation, Corrections),
 }
 
 /// When Newton's method is done, and when it gives up.
@@ -23,6 +25,9 @@ pub struct Limits {
     pub tolerance: f64,
     pub iterations: usize,
 }
+
+/// Iterations in a row with a changing contact set after which it is taken to swing.
+const SWINGS: usize = 6;
 
 /// An iteration in the log.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,8 +46,6 @@ pub struct Iteration {
 pub struct Converged {
     pub at: Iterate,
     pub residual: Residual,
-    /// One entry an iteration, the last one without a correction.
-    pub log: Vec<Iteration>,
 }
 
 /// Why an increment did not converge.
@@ -69,12 +72,14 @@ pub struct Newton {
     /// Largest ||f_int|| of a converged state so far [N].
     pub scale: f64,
     matrix: BlockMatrix,
+    /// Iterations of the last increment that was tried.
+    log: Vec<Iteration>,
 }
 
 impl Newton {
     pub fn new(problem: &Problem<'_>, inner: Inner, limits: Limits) -> Newton {
         let matrix = BlockMatrix::of_mesh(problem.model.node_count(), &problem.model.mesh.hexes);
-        Newton { inner, limits, scale: 0.0, matrix }
+        Newton { inner, limits, scale: 0.0, matrix, log: Vec::new() }
     }
 
     /// Bytes of the matrix and the inner solver.
@@ -82,8 +87,15 @@ impl Newton {
         let inner = match &self.inner {
             Inner::ActiveSet(solver) => solver.bytes(),
             Inner::Relaxation(_) => 0,
+            Inner::Corrected(_, corrections) => corrections.bytes(),
         };
         self.matrix.bytes() + inner
+    }
+
+    /// Iterations of the last increment that was tried, converged or not: one entry each, the last one without a
+    /// correction if it converged.
+    pub fn log(&self) -> &[Iteration] {
+        &self.log
     }
 
     /// Solves an increment from `at`, the state at its start.
@@ -91,15 +103,27 @@ impl Newton {
         &mut self,
         problem: &Problem<'_>,
         inc: &Increment,
+        at: Iterate,
+    ) -> Result<Converged, Failure> {
+        let mut log = Vec::new();
+        let result = self.iterate(problem, inc, at, &mut log);
+        self.log = log;
+        result
+    }
+
+    fn iterate(
+        &mut self,
+        problem: &Problem<'_>,
+        inc: &Increment,
         mut at: Iterate,
+        log: &mut Vec<Iteration>,
     ) -> Result<Converged, Failure> {
         let inverted = |element| Failure::Inverted { element };
         let mut residual = problem.residual(inc, &at).map_err(inverted)?;
         let mut stiffness = vec![0.0; at.status.len()];
         let mut rounding = 0.0;
-        // Iterations since the contact set last changed.
-        let mut standing = 0;
-        let mut log: Vec<Iteration> = Vec::new();
+        // Iterations since the contact set last changed, and in a row in which it did.
+        let (mut standing, mut swinging) = (0, 0);
         for n in 0..=self.limits.iterations {
             let changes = if n == 0 { 0 } else { update(problem, inc, &mut at, &residual, &stiffness) };
             let violation = problem.violation(inc, &at, &residual, &stiffness);
@@ -110,7 +134,7 @@ impl Newton {
             if whole && changes == 0 && violation <= asked {
                 log.push(entry);
                 self.scale = self.scale.max(residual.force_norm);
-                return Ok(Converged { at, residual, log });
+                return Ok(Converged { at, residual });
             }
             if n == self.limits.iterations {
                 log.push(entry);
@@ -122,18 +146,27 @@ impl Newton {
                 *c = (d[0][0] + d[1][1] + d[2][2]) / 3.0;
             }
             rounding = self.rounding(&at);
-            let correction = self.correct(problem, inc, &mut at, &residual, &stiffness, scale)?;
+            let correction = match self.correct(problem, inc, &mut at, &residual, &stiffness, scale) {
+                Ok(correction) => correction,
+                Err(failure) => {
+                    log.push(entry);
+                    return Err(failure);
+                }
+            };
             entry.inner = correction.iterations;
             // While the contact set changes residuals do not compare: any will do. Once it has stood for a while the
             // residual must fall, or slip directions may swing for ever.
             standing = if n == 0 || changes > 0 { 0 } else { standing + 1 };
+            swinging = if changes > 0 { swinging + 1 } else { 0 };
+            // Two sets that lead to each other: half a correction ends between them, where another one follows.
+            let first = if swinging >= SWINGS && swinging % 2 == 0 { 0.5 } else { 1.0 };
             let most = match standing {
                 0 => f64::INFINITY,
                 1..=3 => (2.0 * violation).max(asked),
                 _ => (0.95 * violation).max(asked),
             };
             (at, residual, entry.share) =
-                damped(problem, inc, &at, &correction, most, &stiffness).map_err(inverted)?;
+                damped(problem, inc, &at, &correction, [first, most], &stiffness).map_err(inverted)?;
             log.push(entry);
         }
         let last = log.last().expect("at least one iteration");
@@ -164,13 +197,15 @@ impl Newton {
         stiffness: &[f64],
         scale: f64,
     ) -> Result<Correction, Failure> {
+        let linearised = Linearised { problem, inc, residual, matrix: &self.matrix, scale };
         match &mut self.inner {
             Inner::ActiveSet(solver) => {
                 let system = System::new(problem, inc, at, residual, stiffness, self.matrix.clone());
                 system.solve(&mut **solver).ok_or(Failure::Singular)
             }
-            Inner::Relaxation(settings) => {
-                relax::relax(settings, problem, inc, at, residual, &self.matrix, scale)
+            Inner::Relaxation(settings) => relax::relax(settings, None, linearised, at),
+            Inner::Corrected(settings, corrections) => {
+                relax::relax(settings, Some(corrections), linearised, at)
             }
         }
     }
@@ -193,18 +228,18 @@ fn update(
     changes
 }
 
-/// Applies as much of a correction as the body can take: halved while an element inverts, or while the residual is
-/// more than `most` [N].
+/// Applies as much of a correction as the body can take, `first` at most: halved while an element inverts, or while the
+/// residual is more than `most` [N].
 fn damped(
     problem: &Problem<'_>,
     inc: &Increment,
     at: &Iterate,
     correction: &Correction,
-    most: f64,
+    [first, most]: [f64; 2],
     stiffness: &[f64],
 ) -> Result<(Iterate, Residual, f64), usize> {
     const SMALLEST: f64 = 1.0 / 64.0;
-    let mut share = 1.0;
+    let mut share = first;
     loop {
         let trial = moved(problem, at, correction, share);
         match problem.residual(inc, &trial) {

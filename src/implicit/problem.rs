@@ -85,6 +85,11 @@ impl<'a> Problem<'a> {
         Problem { model, assembler: Assembler::new(model), rim: RimNodes::new(model), gravity, on_rim }
     }
 
+    /// Whether the tangent is symmetric up to round-off: without viscosity, and in statics.
+    pub fn symmetric(&self, inc: &Increment) -> bool {
+        self.model.viscosity.is_none() || inc.rate.iter().all(|r| *r == 0.0)
+    }
+
     /// Residual of an iterate. `Err(element)`: inverted.
     pub fn residual(&self, inc: &Increment, at: &Iterate) -> Result<Residual, usize> {
         let v: Vec<Vec3<f64>> = (0..at.x.len())

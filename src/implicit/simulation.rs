@@ -154,9 +154,8 @@ impl<'a> Simulation<'a> {
         let increment = self.increment(target);
         let at = Iterate { x: self.x.clone(), q: self.q, status: self.status.clone() };
         let done = self.newton.solve(&self.problem, &increment, at)?;
-        let log = done.log.clone();
         self.accept(target, &increment, done);
-        Ok(log)
+        Ok(self.newton.log().to_vec())
     }
 
     /// The equations of an increment.
@@ -241,7 +240,7 @@ impl<'a> Simulation<'a> {
     }
 
     fn accept(&mut self, target: &Target, inc: &Increment, done: Converged) {
-        let Converged { at, residual, .. } = done;
+        let Converged { at, residual } = done;
         let dt = target.dt;
         if let Scheme::Dynamic { delta } = self.scheme {
             self.accept_rates(target, &at.q, delta);

@@ -5,6 +5,7 @@ use super::contact::{Equations, Status};
 use super::krylov::LinearSolver;
 use super::matrix::{Block, BlockMatrix, dot, product, times, transposed};
 use super::problem::{Increment, Iterate, Problem, Residual};
+use super::relax::Linearised;
 use crate::physics::rim::{Coordinates, SPIN};
 use crate::physics::tensor::Vec3;
 
@@ -15,10 +16,11 @@ pub struct System {
     pub fixed: Vec<[bool; 3]>,
     /// Whether the matrix is symmetric up to round-off.
     pub symmetric: bool,
+    /// The same without what friction adds of the normal forces' rows, where there is any: its symmetric part is
+    /// positive, and makes a preconditioner.
+    pub near: Option<BlockMatrix>,
     /// Frame of every touching node (columns): its unknowns are components in it.
     pub columns: Vec<Option<Block>>,
-    /// What the matrix was assembled at: coarser meshes are assembled there too.
-    pub state: Linearised,
     /// Values of the fixed unknowns.
     known: Vec<Vec3<f64>>,
     border: Border,
@@ -34,31 +36,6 @@ struct Border {
     rows: Vec<Vec<Vec3<f64>>>,
     block: Vec<Vec<f64>>,
     rhs: Vec<f64>,
-}
-
-/// Where a tangent was taken. Per node.
-#[derive(Debug, Clone, Default)]
-pub struct Linearised {
-    pub x: Vec<Vec3<f64>>,
-    pub v: Vec<Vec3<f64>>,
-    /// dv/dx [1/s].
-    pub rate: Vec<f64>,
-    /// Effective inertia and damping over the mass [1/s2].
-    pub inertia: Vec<f64>,
-}
-
-impl Linearised {
-    /// The same at the nodes of a coarser mesh.
-    pub fn injected(&self, transfer: &super::multigrid::Transfer) -> Linearised {
-        let at = |n: usize| transfer.coincident(n);
-        let all = || 0..transfer.coarse_count();
-        Linearised {
-            x: all().map(|n| self.x[at(n)]).collect(),
-            v: all().map(|n| self.v[at(n)]).collect(),
-            rate: all().map(|n| self.rate[at(n)]).collect(),
-            inertia: all().map(|n| self.inertia[at(n)]).collect(),
-        }
-    }
 }
 
 /// A Newton correction.
@@ -94,7 +71,7 @@ impl System {
         let mut fixed: Vec<[bool; 3]> = problem.on_rim.iter().map(|&on| [on; 3]).collect();
         let mut columns = vec![None; count];
         let mut laws: Vec<Option<Equations>> = vec![None; count];
-        let mut symmetric = problem.model.viscosity.is_none();
+        let mut symmetric = problem.symmetric(inc);
         for (k, &status) in at.status.iter().enumerate().filter(|(_, s)| **s != Status::Free) {
             let n = problem.model.mesh.surface[k] as usize;
             let node = problem.local(inc, at, &residual.r, k, stiffness);
@@ -108,68 +85,78 @@ impl System {
             }
             laws[n] = Some(law);
         }
+        let slips = |law: &Option<Equations>| law.is_some_and(|l| l.rows != transposed(&l.columns));
+        let near = laws.iter().any(slips).then(|| {
+            let framed = |l: Equations| Equations { rows: transposed(&l.columns), ..l };
+            let laws: Vec<_> = laws.iter().map(|l| l.map(framed)).collect();
+            let mut near = matrix.clone();
+            transform(&mut near, &laws);
+            near
+        });
         transform(&mut matrix, &laws);
         let mut border = Border::new(problem, inc, at, residual, &matrix);
         shift_known(&matrix, &known, &mut rhs);
         border.shift_known(&known);
-        let inertia = |n: usize| inc.inertia[n] / problem.model.mass[n] + inc.damping * inc.rate[n];
-        let state = Linearised {
-            x: at.x.clone(),
-            v: residual.v.clone(),
-            rate: inc.rate.clone(),
-            inertia: (0..count).map(inertia).collect(),
-        };
-        let mut system = System { matrix, rhs, fixed, symmetric, columns, state, known, border, q };
+        let mut system = System { matrix, rhs, fixed, symmetric, near, columns, known, border, q };
         system.decouple();
         system
     }
 
-    /// Equations of a coarser mesh: no right-hand side, some unknowns fixed in their nodes' frames.
-    pub fn plain(
-        mut matrix: BlockMatrix,
-        fixed: Vec<[bool; 3]>,
-        columns: Vec<Option<Block>>,
-        symmetric: bool,
-        state: Linearised,
+    /// The equations that are left of a contact problem once its active set is held: of a touching node the unknowns
+    /// that its law fixes are truncated, not moved. `laws` has every touching node's equations, their right-hand
+    /// side included; `rhs` [N] is read elsewhere, `rim_rhs` [N, N m] belongs to the free rim components.
+    pub fn truncated(
+        linearised: Linearised<'_>,
+        at: &Iterate,
+        laws: &[Option<Equations>],
+        mut rhs: Vec<Vec3<f64>>,
+        rim_rhs: Vec<f64>,
     ) -> System {
-        let law = |c: &Option<Block>| c.map(Equations::framed);
-        transform(&mut matrix, &columns.iter().map(law).collect::<Vec<_>>());
-        let zero = vec![[0.0; 3]; fixed.len()];
-        let (known, border, q) = (zero.clone(), Border::default(), [0.0; 6]);
-        let mut system = System { matrix, rhs: zero, fixed, symmetric, columns, state, known, border, q };
+        let Linearised { problem, inc, residual, matrix, .. } = linearised;
+        let mut matrix = matrix.clone();
+        let count = at.x.len();
+        let mut fixed: Vec<[bool; 3]> = problem.on_rim.iter().map(|&on| [on; 3]).collect();
+        let mut columns = vec![None; count];
+        for (n, law) in laws.iter().enumerate() {
+            if let Some(law) = law {
+                (rhs[n], fixed[n], columns[n]) = (law.rhs, law.fixed, Some(law.columns));
+            }
+        }
+        transform(&mut matrix, laws);
+        let mut border = Border::new(problem, inc, at, residual, &matrix);
+        border.rhs = rim_rhs;
+        let symmetric = problem.symmetric(inc);
+        let known = vec![[0.0; 3]; count];
+        let (near, q) = (None, [0.0; 6]);
+        let mut system = System { matrix, rhs, fixed, symmetric, near, columns, known, border, q };
         system.decouple();
         system
     }
 
-    /// A node's unknowns as a vector in space.
-    pub fn to_space(&self, n: usize, y: Vec3<f64>) -> Vec3<f64> {
-        self.columns[n].map_or(y, |c| times(&c, y))
-    }
-
-    /// A vector in space as a node's unknowns.
-    pub fn to_frame(&self, n: usize, v: Vec3<f64>) -> Vec3<f64> {
-        self.columns[n].map_or(v, |c| times(&transposed(&c), v))
-    }
-
-    /// Zero where an unknown is fixed.
-    pub fn truncated(&self, n: usize, y: Vec3<f64>) -> Vec3<f64> {
-        std::array::from_fn(|i| if self.fixed[n][i] { 0.0 } else { y[i] })
+    /// A matrix alone: no unknown is fixed, and every one is a component in space.
+    pub fn bare(matrix: BlockMatrix, symmetric: bool) -> System {
+        let count = matrix.rows();
+        let zero = vec![[0.0; 3]; count];
+        System {
+            matrix,
+            rhs: zero.clone(),
+            fixed: vec![[false; 3]; count],
+            symmetric,
+            near: None,
+            columns: vec![None; count],
+            known: zero,
+            border: Border::default(),
+            q: [0.0; 6],
+        }
     }
 
     /// Unit rows and zero columns for the fixed unknowns. The unit is a stiffness, so that norms mean something.
     fn decouple(&mut self) {
         let unit = mean_diagonal(&self.matrix);
+        for matrix in [Some(&mut self.matrix), self.near.as_mut()].into_iter().flatten() {
+            uncouple(matrix, &self.fixed, unit);
+        }
         for i in 0..self.rhs.len() {
-            for e in self.matrix.start[i]..self.matrix.start[i + 1] {
-                let j = self.matrix.columns[e] as usize;
-                for a in 0..3 {
-                    for b in 0..3 {
-                        if self.fixed[i][a] || self.fixed[j][b] {
-                            self.matrix.blocks[e][a][b] = if i == j && a == b { unit } else { 0.0 };
-                        }
-                    }
-                }
-            }
             clear(&mut self.rhs[i], self.fixed[i]);
             for list in [&mut self.border.columns, &mut self.border.rows] {
                 list.iter_mut().for_each(|c| clear(&mut c[i], self.fixed[i]));
@@ -180,6 +167,11 @@ impl System {
     /// Solves for the correction; the border by its Schur complement. `None`: singular, or the solver failed.
     pub fn solve(&self, solver: &mut dyn LinearSolver) -> Option<Correction> {
         solver.prepare(self)?;
+        self.solve_prepared(solver)
+    }
+
+    /// The same with a solver that is ready.
+    pub fn solve_prepared(&self, solver: &mut dyn LinearSolver) -> Option<Correction> {
         let mut iterations = 0;
         let mut solve = |b: &[Vec3<f64>]| -> Option<Vec<Vec3<f64>>> {
             let (y, n) = solver.solve(self, b)?;
@@ -207,6 +199,22 @@ impl System {
             columns.map_or(y, |c| times(&c, y))
         });
         Some(Correction { dx: dx.collect(), q, iterations })
+    }
+}
+
+/// `unit` on the diagonal of the fixed unknowns, zero elsewhere in their rows and columns.
+fn uncouple(matrix: &mut BlockMatrix, fixed: &[[bool; 3]], unit: f64) {
+    for i in 0..fixed.len() {
+        for e in matrix.start[i]..matrix.start[i + 1] {
+            let j = matrix.columns[e] as usize;
+            for a in 0..3 {
+                for b in 0..3 {
+                    if fixed[i][a] || fixed[j][b] {
+                        matrix.blocks[e][a][b] = if i == j && a == b { unit } else { 0.0 };
+                    }
+                }
+            }
+        }
     }
 }
 

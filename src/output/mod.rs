@@ -10,6 +10,7 @@
 //! | `snapshot_<k>.vtu` | whole fields: see [`snapshot`] | each whole, at once |
 //! | `contact_<k>.csv` | nodes that touched during the last window before snapshot k: see [`contact`] | each whole, at once |
 //! | `run.pvd` | times and names of the snapshots, for ParaView | after each snapshot |
+//! | `implicit.csv` | one row an iteration of an implicit stage ([`NewtonRow`](crate::record::NewtonRow)) | increment by increment |
 //! | `summary.json` | a [`Summary`] | at the end |
 //! | `body*.png`, `footprint*.png` | pictures | by the renderer |
 //!
@@ -21,11 +22,15 @@ pub mod contact;
 pub(crate) mod folder;
 mod pvd;
 pub mod read;
+pub mod rolling;
+pub mod scatter;
 pub mod snapshot;
 pub mod stages;
 pub mod summary;
 pub mod vtu;
 mod writer;
 
+pub use rolling::Rolling;
+pub use scatter::{ContactScatter, Verdict};
 pub use summary::Summary;
 pub use writer::RunWriter;

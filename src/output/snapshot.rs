@@ -9,6 +9,7 @@
 //! | point | `node_set` | 0 inside, 1 surface (can touch the road), 2 rim |
 //! | point | `contact_force` | mean over the last window, road on node [N] |
 //! | point | `contact_pressure`, `contact_area`, `slip_speed` | [Pa], [m2], [m/s]; zero off the surface |
+//! | point | `friction_energy` | dissipated by friction at the node since the start [J]; zero off the surface |
 //! | point | `contact_state` | 0 free or off the surface, 1 sticks, 2 slips |
 //! | cell | `J`, `pressure`, `von_mises` | mean volume ratio [-], mean -tr(sigma)/3 [Pa], mean stress [Pa] |
 //! | field | `TimeValue`, `step` | time [s], step |
@@ -109,6 +110,7 @@ fn point_data<'a>(mesh: &Mesh, snapshot: &'a Snapshot) -> Vec<Array<'a>> {
             Array::new(PointData, "contact_pressure", 1, scatter(mesh, snapshot, |c| c.pressure)),
             Array::new(PointData, "contact_area", 1, scatter(mesh, snapshot, |c| c.area)),
             Array::new(PointData, "slip_speed", 1, scatter(mesh, snapshot, |c| c.slip_speed)),
+            Array::new(PointData, "friction_energy", 1, scatter(mesh, snapshot, |c| c.friction_energy)),
             Array::new(PointData, "contact_state", 1, scatter(mesh, snapshot, |c| c.state as u8)),
         ]);
     }
@@ -202,6 +204,7 @@ fn contact(grid: &Grid, mesh: &Mesh) -> Result<Vec<ContactNode>> {
     let force = vectors(grid, PointData, "contact_force", grid.points)?;
     let (pressure, area, slip_speed) =
         (scalar("contact_pressure")?, scalar("contact_area")?, scalar("slip_speed")?);
+    let friction_energy = scalar("friction_energy")?;
     let states = grid.get::<u8>(PointData, "contact_state", 1, Some(grid.points))?;
     let node = |&node: &u32| {
         let n = node as usize;
@@ -209,7 +212,8 @@ fn contact(grid: &Grid, mesh: &Mesh) -> Result<Vec<ContactNode>> {
             .get(states[n] as usize)
             .ok_or_else(|| grid.bad(format!("node {n} has contact state {}; 0 to 2 exist", states[n])))?;
         let (force, area, pressure, slip_speed) = (force[n], area[n], pressure[n], slip_speed[n]);
-        Ok(ContactNode { node, force, area, pressure, slip_speed, state })
+        let friction_energy = friction_energy[n];
+        Ok(ContactNode { node, force, area, pressure, slip_speed, friction_energy, state })
     };
     mesh.surface.iter().map(node).collect()
 }

@@ -3,7 +3,10 @@
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::stages::{self, Span};
+use super::{ContactScatter, Rolling};
 use crate::record::Sample;
+use crate::run::Totals;
+use crate::scene::{Method, Scene, Stage};
 
 /// A run in numbers. Seconds, joules and newtons are in the names.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -43,6 +46,8 @@ pub struct Summary {
     pub stored_balance: WorstBalance,
     /// Deepest surface node below the road at any sample [m], 0 if none was; none without a road.
     pub worst_penetration_m: Option<f64>,
+    /// Whether every stage ran to its end.
+    pub finished: bool,
     pub stages: Vec<StageMeans>,
     pub versions: Versions,
     pub warnings: Vec<String>,
@@ -92,6 +97,10 @@ pub struct StageMeans {
     pub mean_axle_z_m: f64,
     #[serde(deserialize_with = "number")]
     pub mean_contact_area_m2: f64,
+    /// Scatter of the contact force from step to step; none without contact, and of implicit stages.
+    pub contact: Option<ContactScatter>,
+    /// Figures of a wheel that rolls; none where nothing does.
+    pub rolling: Option<Rolling>,
 }
 
 /// What the program was built from.
@@ -143,7 +152,28 @@ impl StageMeans {
             mean_rim_mz_Nm: mean(|s| s.rim_mz_Nm),
             mean_axle_z_m: mean(|s| s.axle_z_m),
             mean_contact_area_m2: mean(|s| s.contact_area_m2),
+            contact: None,
+            rolling: None,
         }
+    }
+
+    /// The means of every stage of a run, with the scatter of its contact force and the figures of rolling.
+    pub fn of_run(scene: &Scene, history: &[Sample], totals: &Totals) -> Vec<StageMeans> {
+        let settles = |s: &&Stage| matches!(s.method, Method::QuasiStatic { .. });
+        let settling: Vec<&str> = scene.stages.iter().filter(settles).map(|s| s.name.as_str()).collect();
+        let mut means = StageMeans::of(history, &settling);
+        let Some(road) = &scene.road else { return means };
+        for ((i, mean), span) in means.iter_mut().enumerate().zip(stages::spans(history)) {
+            // A quasi-static stage ends at rest: how it got there is nobody's concern.
+            let Some(stage) = scene.stages.get(i).filter(|s| !settling.contains(&s.name.as_str())) else {
+                continue;
+            };
+            let noise = totals.noise.get(i).copied().flatten();
+            mean.contact = noise.and_then(|n| ContactScatter::of(&n, road, scene.output.chatter_limit));
+            let radius = stage.slip.and(totals.free_radius);
+            mean.rolling = Rolling::of(history, &span, stage, road, radius);
+        }
+        means
     }
 }
 
@@ -184,6 +214,6 @@ pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// JSON has no NaN or infinity: they are written as null, and come back as NaN.
-fn number<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+pub(super) fn number<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }

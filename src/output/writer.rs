@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Summary, contact, folder, pvd, snapshot};
 use crate::model::mesh::Mesh;
-use crate::record::{Sample, Snapshot};
+use crate::record::{NewtonRow, Sample, Snapshot};
 use crate::{Error, Result};
 
 /// The open folder of a run. Everything given to it is on disk when the call returns.
@@ -13,6 +13,8 @@ pub struct RunWriter<'m> {
     dir: PathBuf,
     mesh: &'m Mesh,
     history: csv::Writer<File>,
+    /// Made when the first implicit increment is.
+    implicit: Option<csv::Writer<File>>,
     /// Times [s] and names of the snapshots so far.
     snapshots: Vec<(f64, String)>,
     /// Held, not used: the folder is locked while this lives.
@@ -35,7 +37,8 @@ impl<'m> RunWriter<'m> {
         let mut history = csv::WriterBuilder::new().has_headers(false).from_writer(file);
         history.write_record(header()).map_err(csv_error(&path))?;
         history.flush().map_err(Error::io(&path, "write this file"))?;
-        let writer = RunWriter { dir: dir.into(), mesh, history, snapshots: Vec::new(), _lock };
+        let writer =
+            RunWriter { dir: dir.into(), mesh, history, implicit: None, snapshots: Vec::new(), _lock };
         writer.write_pvd()?;
         Ok(writer)
     }
@@ -45,6 +48,20 @@ impl<'m> RunWriter<'m> {
         let path = self.dir.join(folder::HISTORY);
         self.history.serialize(sample).map_err(csv_error(&path))?;
         self.history.flush().map_err(Error::io(&path, "write this file"))
+    }
+
+    /// Appends the iterations of an implicit increment to `implicit.csv`.
+    pub fn iterations(&mut self, rows: &[NewtonRow]) -> Result<()> {
+        let path = self.dir.join(folder::IMPLICIT);
+        if self.implicit.is_none() {
+            let file = File::create(&path).map_err(Error::io(&path, "write this file"))?;
+            self.implicit = Some(csv::Writer::from_writer(file));
+        }
+        let writer = self.implicit.as_mut().expect("just made");
+        for row in rows {
+            writer.serialize(row).map_err(csv_error(&path))?;
+        }
+        writer.flush().map_err(Error::io(&path, "write this file"))
     }
 
     /// Writes `snapshot_<k>.vtu`, `contact_<k>.csv` (with a road) and `run.pvd`; returns k, from 0.

@@ -22,6 +22,15 @@ pub trait Scalar:
     fn from_f64(value: f64) -> Self;
     /// self * a + b; fused only where the hardware does it at no cost.
     fn mul_add(self, a: Self, b: Self) -> Self;
+    /// self * a - b and b - self * a, likewise: one instruction where there is one.
+    #[inline(always)]
+    fn mul_sub(self, a: Self, b: Self) -> Self {
+        self * a - b
+    }
+    #[inline(always)]
+    fn neg_mul_add(self, a: Self, b: Self) -> Self {
+        b - self * a
+    }
     /// self^(-1/3), self > 0.
     fn recip_cbrt(self) -> Self;
     /// Natural logarithm; in energies only, never in forces.
@@ -38,14 +47,14 @@ pub trait Scalar:
 }
 
 /// A single number with an order and a square root: what the node physics (contact, friction) needs.
-pub trait Real: Scalar + PartialOrd {
+pub trait Real: Scalar + PartialOrd + bytemuck::Pod {
     /// Unit round-off doubled: the distance from 1 to the next number.
     const EPSILON: f64;
     fn to_f64(self) -> f64;
     fn sqrt(self) -> Self;
     /// e^self; in friction laws only.
     fn exp(self) -> Self;
-    /// self^(-1/3) within 4 %, and the Newton steps that make it exact (each doubles the digits).
+    /// self^(-1/3) within 4 %, and the steps that make it exact (each multiplies the digits by four).
     fn recip_cbrt_guess(self) -> Self;
     const CBRT_STEPS: usize;
 }
@@ -97,8 +106,8 @@ macro_rules! real {
         }
     };
 }
-real!(f64, 4, guess_f64);
-real!(f32, 3, guess_f32);
+real!(f64, 2, guess_f64);
+real!(f32, 2, guess_f32);
 
 #[inline(always)]
 fn guess_f64(x: f64) -> f64 {

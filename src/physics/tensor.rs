@@ -23,6 +23,11 @@ pub fn sub<S: Scalar>(a: Vec3<S>, b: Vec3<S>) -> Vec3<S> {
 }
 
 #[inline(always)]
+pub fn neg<S: Scalar>(a: Vec3<S>) -> Vec3<S> {
+    [-a[0], -a[1], -a[2]]
+}
+
+#[inline(always)]
 pub fn scale<S: Scalar>(a: Vec3<S>, s: S) -> Vec3<S> {
     [a[0] * s, a[1] * s, a[2] * s]
 }
@@ -40,7 +45,7 @@ pub fn dot<S: Scalar>(a: Vec3<S>, b: Vec3<S>) -> S {
 
 #[inline(always)]
 pub fn cross<S: Scalar>(a: Vec3<S>, b: Vec3<S>) -> Vec3<S> {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    [a[1].mul_sub(b[2], a[2] * b[1]), a[2].mul_sub(b[0], a[0] * b[2]), a[0].mul_sub(b[1], a[1] * b[0])]
 }
 
 /// Cofactor matrix: columns a_eta x a_zeta, a_zeta x a_xi, a_xi x a_eta, so that cof(A)_d . A_e = det A delta_de.
@@ -62,6 +67,7 @@ pub fn combined<S: Scalar>(a: &Mat3<S>, x: S, y: S, z: S) -> Vec3<S> {
 
 /// A symmetric 3x3 matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
 pub struct Sym3<S> {
     pub xx: S,
     pub yy: S,

@@ -33,6 +33,7 @@ pub fn describe(field: Field) -> (&'static str, &'static str, bool) {
         Field::Pressure => ("Pressure", "Pa", false),
         Field::VolumeRatio => ("Volume ratio J", "", false),
         Field::VonMises => ("Von Mises stress", "Pa", true),
+        Field::FrictionEnergy => ("Friction energy", "J/m²", false),
     }
 }
 
@@ -54,6 +55,15 @@ pub fn values(field: Field, mesh: &Mesh, snapshot: &Snapshot) -> Result<Values> 
         Field::Pressure => Values::Elements(snapshot.pressure.clone()),
         Field::VolumeRatio => Values::Elements(snapshot.volume_ratio.clone()),
         Field::VonMises => Values::Elements(snapshot.von_mises.clone()),
+        Field::FrictionEnergy => {
+            let areas = reference_areas(mesh);
+            let mut energies = vec![0.0; mesh.nodes.len()];
+            for contact in &snapshot.contact {
+                let n = contact.node as usize;
+                energies[n] = contact.friction_energy / areas[n];
+            }
+            Values::Nodes(energies)
+        }
     };
     let (got, wanted, what) = match &values {
         Values::Nodes(v) => (v, mesh.nodes.len(), "nodes"),
@@ -68,6 +78,19 @@ pub fn values(field: Field, mesh: &Mesh, snapshot: &Snapshot) -> Result<Values> 
         Some(at) => Err(Error::Picture { problem: format!("{name} is {} at {what} {at}", got[at]) }),
         None => Ok(values),
     }
+}
+
+/// Area of the reference surface nearest to each node: a quarter of every facet beside it, zero inside.
+fn reference_areas(mesh: &Mesh) -> Vec<f64> {
+    let mut areas = vec![0.0; mesh.nodes.len()];
+    for facet in &mesh.facets {
+        let [a, b, c, d] = facet.map(|n| mesh.nodes[n as usize]);
+        let across = |p: [f64; 3], q: [f64; 3]| [q[0] - p[0], q[1] - p[1], q[2] - p[2]];
+        let ([x, y, z], [u, v, w]) = (across(a, c), across(b, d));
+        let area = 0.5 * length([y * w - z * v, z * u - x * w, x * v - y * u]);
+        facet.iter().for_each(|&n| areas[n as usize] += 0.25 * area);
+    }
+    areas
 }
 
 /// Checks that a snapshot belongs to the mesh: positions for every node, contact at its nodes.

@@ -6,8 +6,8 @@
 
 mod body;
 mod camera;
-pub mod canvas;
-mod colour;
+pub(crate) mod canvas;
+pub(crate) mod colour;
 mod contact;
 mod field;
 mod footprint;

@@ -54,7 +54,12 @@ pub fn scene(mesh: MeshSpec) -> Scene {
         gravity: [0.0; 3],
         safety: 0.9,
         stages: vec![explicit("free", 1e-3)],
-        output: Output { sample: 1e-3, snapshots: Snapshots::StageEnds, pictures: Vec::new() },
+        output: Output {
+            sample: 1e-3,
+            snapshots: Snapshots::StageEnds,
+            pictures: Vec::new(),
+            chatter_limit: 0.05,
+        },
     }
 }
 
@@ -72,6 +77,7 @@ pub fn explicit(name: &str, duration: f64) -> Stage {
         mass_damping: 0.0,
         initial_velocity: None,
         rim: HELD,
+        slip: None,
     }
 }
 

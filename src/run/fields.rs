@@ -6,7 +6,7 @@ use crate::model::Model;
 use crate::model::areas::contact_areas;
 use crate::physics::element::hex8;
 use crate::physics::rim;
-use crate::physics::tensor::{det, dot, scale, sub};
+use crate::physics::tensor::{dot, scale, sub};
 use crate::record::{ContactNode, ContactState, Snapshot};
 use crate::scene::Road;
 
@@ -19,14 +19,15 @@ pub fn snapshot(
     length: f64,
     state: State,
     window: &Window,
+    friction_energy: &[f64],
 ) -> Snapshot {
-    let contact = road.map(|r| contact_nodes(model, r, length, &state, window)).unwrap_or_default();
+    let contact =
+        road.map(|r| contact_nodes(model, r, length, &state, window, friction_energy)).unwrap_or_default();
     let (mut volume_ratio, mut pressure, mut von_mises) = (Vec::new(), Vec::new(), Vec::new());
     for (hex, &class) in model.mesh.hexes.iter().zip(&model.class_of) {
         let corners = hex.map(|n| state.x[n as usize]);
         let f = element_forces(model, class as usize, &corners, &[[0.0; 3]; 8]);
-        let columns = hex8::gradients(&corners);
-        let volume: f64 = (0..8).map(|q| det(&hex8::at(&columns, q))).sum();
+        let volume = hex8::volume(&corners);
         let sigma = mean_stress(&corners, &f, volume);
         let p = -(sigma[0][0] + sigma[1][1] + sigma[2][2]) / 3.0;
         let s = |i: usize, j: usize| sigma[i][j] + if i == j { p } else { 0.0 };
@@ -54,10 +55,11 @@ fn contact_nodes(
     length: f64,
     state: &State,
     window: &Window,
+    friction_energy: &[f64],
 ) -> Vec<ContactNode> {
     let Road::Plane { normal, velocity, .. } = *road;
     let areas = contact_areas(&model.mesh, |n| state.x[n as usize], road);
-    let node = |((&node, sum), area): ((&u32, &crate::engine::SurfaceSum), f64)| {
+    let node = |(k, ((&node, sum), area)): (usize, ((&u32, &crate::engine::SurfaceSum), f64))| {
         // Before the first window there is no impulse and no time.
         let force = sum.impulse.map(|i| if length > 0.0 { i / length } else { 0.0 });
         let relative = sub(sum.v, velocity);
@@ -70,7 +72,8 @@ fn contact_nodes(
         };
         let pressure = if area > 0.0 { dot(force, normal) / area } else { 0.0 };
         let slip_speed = if touched { dot(slip, slip).sqrt() } else { 0.0 };
-        ContactNode { node, force, area, pressure, slip_speed, state }
+        let friction_energy = friction_energy.get(k).copied().unwrap_or(0.0);
+        ContactNode { node, force, area, pressure, slip_speed, friction_energy, state }
     };
-    model.mesh.surface.iter().zip(&window.surface).zip(areas).map(node).collect()
+    model.mesh.surface.iter().zip(&window.surface).zip(areas).enumerate().map(node).collect()
 }

@@ -13,6 +13,7 @@ use crate::implicit::{self, Failure, Iteration, Limits, Newton, Scheme, Simulati
 use crate::model::Model;
 use crate::physics::friction::Coulomb;
 use crate::physics::road::Plane;
+use crate::record::NewtonRow;
 use crate::scene::{Drive, Friction, Implicit, ImplicitScheme, Road, Stage};
 
 /// What implicit stages cost.
@@ -159,12 +160,15 @@ impl<'a> Run<'a> {
                 counts.increments += 1;
                 counts.newton += newton;
                 counts.inner += log.iter().map(|l| l.inner).sum::<usize>();
+                self.observer.increment(&rows(stage, [time, length], "converged", &log))?;
                 self.observer.note(&line(stage, time, length, &log))?;
                 Ok(true)
             }
             Err(failure) => {
                 self.totals.implicit.cuts += 1;
                 let cut = on.lengths.failed(length);
+                let log = on.simulation.newton.log();
+                self.observer.increment(&rows(stage, [time, length], "failed", log))?;
                 self.observer.note(&format!("{}: increment to t = {time:.6e} s: {failure}", stage.name))?;
                 if cut {
                     return Ok(false);
@@ -224,6 +228,22 @@ fn failed(stage: &Stage, time: f64, failure: &Failure) -> Error {
              [stage.implicit] solver may help"
         ),
     }
+}
+
+/// An increment's rows of `implicit.csv`.
+fn rows(stage: &Stage, [time, length]: [f64; 2], increment: &str, log: &[Iteration]) -> Vec<NewtonRow> {
+    let row = |(iteration, i): (usize, &Iteration)| NewtonRow {
+        stage: stage.name.clone(),
+        time_s: time,
+        dt_s: length,
+        increment: increment.into(),
+        iteration,
+        residual: i.residual,
+        contact_changes: i.changes,
+        inner_iterations: i.inner,
+        share: i.share,
+    };
+    log.iter().enumerate().map(row).collect()
 }
 
 /// An increment in the log: iterations with their residuals, contact changes and inner iterations.

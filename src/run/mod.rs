@@ -1,5 +1,6 @@
 //! The loop over an [`Engine`]: stages, windows, steps; histories, fields and the critical step on the way.
 
+mod chatter;
 mod fields;
 mod implicit;
 mod lanczos;
@@ -8,7 +9,7 @@ mod motion;
 pub mod stability;
 
 pub use implicit::ImplicitCounts;
-pub use ledger::Ledger;
+pub use ledger::{Ledger, road_axes};
 pub use motion::Motion;
 
 pub use crate::model::areas::contact_areas;
@@ -17,8 +18,9 @@ use crate::engine::{Engine, Step, Window};
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::physics::rim;
-use crate::record::{Sample, Snapshot};
-use crate::scene::{InitialVelocity, Method, Scene, Snapshots, Stage};
+use crate::record::{ContactNoise, NewtonRow, Sample, Snapshot};
+use crate::scene::{Drive, InitialVelocity, MeshSpec, Method, Scene, Snapshots, Stage};
+use chatter::Chatter;
 use glam::DVec3;
 use ledger::WindowEnd;
 use stability::Critical;
@@ -45,6 +47,10 @@ pub trait Observer {
     fn note(&mut self, _line: &str) -> Result<()> {
         Ok(())
     }
+    /// The iterations of an implicit increment, converged or not.
+    fn increment(&mut self, _iterations: &[NewtonRow]) -> Result<()> {
+        Ok(())
+    }
     /// Asked after every window: end here, keeping everything.
     fn interrupted(&self) -> bool {
         false
@@ -67,6 +73,10 @@ pub struct Totals {
     /// Of implicit stages: increments, cuts, Newton iterations, iterations or sweeps of the inner solver.
     pub implicit: ImplicitCounts,
     pub ledger: Ledger,
+    /// Scatter of the road's force in every stage that has ended; none in implicit stages, and without a road.
+    pub noise: Vec<Option<ContactNoise>>,
+    /// Free-rolling radius that the last longitudinal slip was related to, or that was measured since [m].
+    pub free_radius: Option<f64>,
     /// Whether an observer ended it.
     pub interrupted: bool,
 }
@@ -82,12 +92,25 @@ pub fn run(
     for (k, stage) in scene.stages.iter().enumerate() {
         run.end = run.totals.time + scene.stages[k..].iter().map(|s| s.duration).sum::<f64>();
         run.stage(stage)?;
+        run.totals.noise.push(run.chatter.noise());
+        run.measure_free_radius(stage);
         if run.totals.interrupted {
             break;
         }
     }
     Ok(run.totals)
 }
+
+/// Elements round the circumference of a ring.
+fn sides(mesh: &MeshSpec) -> Option<usize> {
+    match mesh {
+        MeshSpec::Ring { elements, .. } => Some(elements[0]),
+        MeshSpec::Block { .. } => None,
+    }
+}
+
+/// Index of the steer angle among the rim's coordinates.
+const STEER: usize = 3;
 
 struct Run<'a> {
     scene: &'a Scene,
@@ -104,6 +127,7 @@ struct Run<'a> {
     refresh_at: u64,
     refresh_interval: u64,
     next_snapshot: f64,
+    chatter: Chatter,
     end: f64,
     /// Time over which the forces of the window acted: its length, but for the half step after velocities were set.
     force_time: f64,
@@ -143,6 +167,7 @@ impl<'a> Run<'a> {
             refresh_at: 0,
             refresh_interval: 0,
             next_snapshot: 0.0,
+            chatter: Chatter::new(None, 0.0, 1.0),
             end: 0.0,
             force_time: 0.0,
             last_ratios: [f64::INFINITY; 2],
@@ -184,6 +209,7 @@ impl<'a> Run<'a> {
 
     fn stage(&mut self, stage: &Stage) -> Result<()> {
         let start = self.totals.time;
+        let stage = &self.spun(stage)?;
         self.motion = self.motion.next(stage, start, self.rim);
         self.engine.begin_stage(&self.motion.setup(stage.mass_damping))?;
         match stage.initial_velocity {
@@ -198,6 +224,7 @@ impl<'a> Run<'a> {
             Snapshots::Every(interval) => start + interval,
             _ => f64::INFINITY,
         };
+        self.chatter = Chatter::new(sides(&self.scene.body.mesh), start, stage.duration);
         if let Method::Implicit(settings) = stage.method {
             return self.implicit_stage(stage, &settings);
         }
@@ -235,6 +262,34 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// The stage with the spin that its longitudinal slip asks for.
+    fn spun(&mut self, stage: &Stage) -> Result<Stage> {
+        let mut stage = stage.clone();
+        let Some(slip) = stage.slip else { return Ok(stage) };
+        let steer = match stage.rim.steer {
+            Drive::Displacement { to, .. } => to,
+            _ => self.rim[STEER],
+        };
+        let speed = stage.heading_speed(self.scene.road.as_ref(), steer);
+        let radius = slip.free_radius.or(self.totals.free_radius).ok_or_else(|| Error::NotSettled {
+            stage: stage.name.clone(),
+            detail:
+                "no stage before it has rolled freely, so its longitudinal slip has no free-rolling radius"
+                    .into(),
+        })?;
+        self.totals.free_radius = Some(radius);
+        stage.rim.spin = Drive::Velocity { to: (1.0 + slip.kappa) * speed / radius, ramp: slip.ramp };
+        Ok(stage)
+    }
+
+    /// Keeps the free-rolling radius of a stage whose rim has spun freely without a moment.
+    fn measure_free_radius(&mut self, stage: &Stage) {
+        let speed = stage.heading_speed(self.scene.road.as_ref(), self.rim[STEER]);
+        if let Some(rate) = self.chatter.spin_rate().filter(|w| *w * speed > 0.0 && stage.rolls_freely()) {
+            self.totals.free_radius = Some(speed / rate);
+        }
+    }
+
     /// The rigid velocity of the rim's motion for every node, and for the rim's free components.
     fn start_with_rim(&mut self, time: f64) -> Result<()> {
         let mut rate = self.motion.rate_at(time);
@@ -252,6 +307,7 @@ impl<'a> Run<'a> {
     /// Steps to `end` and books the window.
     fn window(&mut self, stage: &Stage, end: f64) -> Result<Window> {
         self.force_time = 0.0;
+        let (start, spin) = (self.totals.time, self.rim[rim::SPIN]);
         while self.totals.time < end {
             self.advance_towards(end)?;
         }
@@ -259,6 +315,9 @@ impl<'a> Run<'a> {
         let next = self.motion.plan(end, dt, dt, 1)[0];
         let window = self.engine.sample(&next)?;
         (self.rim, self.rim_rate) = (window.rim, window.rim_rate);
+        if self.scene.road.is_some() {
+            self.chatter.add(start, end, [spin, window.rim[rim::SPIN]], &window);
+        }
         let at = WindowEnd { time: end, length: self.force_time, dt, stage: stage.name.clone() };
         let row = self.totals.ledger.row(self.model, self.scene.road.as_ref(), &at, &window);
         let totals = &self.totals;
@@ -367,7 +426,9 @@ impl<'a> Run<'a> {
         let state = self.engine.state()?;
         let length = self.force_time;
         let road = self.scene.road.as_ref();
-        let snapshot = fields::snapshot(self.model, road, time, self.totals.steps, length, state, window);
+        let worn = &self.totals.ledger.friction_energy;
+        let steps = self.totals.steps;
+        let snapshot = fields::snapshot(self.model, road, time, steps, length, state, window, worn);
         self.observer.snapshot(&snapshot, &stage.name)?;
         Ok(true)
     }

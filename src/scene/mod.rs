@@ -224,6 +224,37 @@ pub struct Stage {
     pub mass_damping: f64,
     pub initial_velocity: Option<InitialVelocity>,
     pub rim: RimMotion,
+    /// Spins the rim for a longitudinal slip; `rim.spin` is then `Hold`, and replaced when the stage starts.
+    pub slip: Option<Slip>,
+}
+
+/// Longitudinal slip kappa: the rim spins at (1 + kappa) v / R_free, v being the axle's speed over the road along the
+/// wheel's heading at the end of all ramps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slip {
+    pub kappa: f64,
+    /// Free-rolling radius [m]; `None`: measured in the last stage before whose rim spins freely without a moment.
+    pub free_radius: Option<f64>,
+    /// Ramp of the spin [s].
+    pub ramp: f64,
+}
+
+impl Stage {
+    /// Speed over the road that the stage's velocities come to, along the heading of a wheel at the steer angle `steer`.
+    pub fn heading_speed(&self, road: Option<&Road>, steer: f64) -> f64 {
+        let Some(Road::Plane { velocity, .. }) = road else { return 0.0 };
+        let rate = |drive: Drive| match drive {
+            Drive::Velocity { to, .. } => to,
+            _ => 0.0,
+        };
+        let (sin, cos) = steer.sin_cos();
+        (rate(self.rim.x) - velocity[0]) * cos + (rate(self.rim.y) - velocity[1]) * sin
+    }
+
+    /// Whether the rim spins freely and without a moment.
+    pub fn rolls_freely(&self) -> bool {
+        matches!(self.rim.spin, Drive::Free { load: 0.0, .. })
+    }
 }
 
 /// How a stage is solved.
@@ -264,8 +295,8 @@ pub enum ImplicitSolver {
     /// Semi-smooth Newton.
     ActiveSet(Linear),
     /// The paper's projected relaxation (eq. 24): omega, epsilon_GS relative to the force scale (eq. 25), and the most
-    /// sweeps.
-    Relaxation { omega: f64, tolerance: f64, sweeps: usize },
+    /// sweeps. `corrections`: what solves the linear equations between the sweeps, if anything does.
+    Relaxation { omega: f64, tolerance: f64, sweeps: usize, corrections: Option<Linear> },
 }
 
 /// Solvers of linear equations.
@@ -325,6 +356,9 @@ pub struct Output {
     pub sample: f64,
     pub snapshots: Snapshots,
     pub pictures: Vec<Picture>,
+    /// Scatter of the contact force from step to step, over the mean normal force, above which it is named; default
+    /// 0.05.
+    pub chatter_limit: f64,
 }
 
 /// When whole fields are written (`.vtu`, `contact_<k>.csv`).
@@ -355,4 +389,6 @@ pub enum Field {
     Pressure,
     VolumeRatio,
     VonMises,
+    /// Energy that friction has dissipated since the start, per undeformed area [J/m2].
+    FrictionEnergy,
 }

@@ -1,5 +1,6 @@
 //! The command line as a user meets it: the built program, its files, its messages, its exit codes.
 
+mod benching;
 mod checking;
 mod choosing;
 mod comparing;
@@ -8,3 +9,4 @@ mod mistakes;
 mod program;
 mod reporting;
 mod running;
+mod studies;

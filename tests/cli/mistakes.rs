@@ -102,7 +102,7 @@ fn help_has_examples_and_the_exit_codes() {
     for code in ["0 ", "2 ", "3 ", "4 ", "5 ", "6 ", "130 "] {
         assert!(help.lines().any(|l| l.trim_start().starts_with(code)), "{code} is missing in\n{help}");
     }
-    for command in ["run", "check", "render", "compare"] {
+    for command in ["run", "check", "render", "compare", "bench"] {
         let help = place.hexroll(&[command, "--help"]).expect(0).stdout;
         assert!(help.contains(&format!("  hexroll {command} ")), "no example in\n{help}");
     }

@@ -61,7 +61,12 @@ pub fn scene(mesh: MeshSpec) -> Scene {
         gravity: [0.0; 3],
         safety: 0.9,
         stages: vec![explicit("free", 1e-3)],
-        output: Output { sample: 1e-3, snapshots: Snapshots::StageEnds, pictures: vec![] },
+        output: Output {
+            sample: 1e-3,
+            snapshots: Snapshots::StageEnds,
+            pictures: vec![],
+            chatter_limit: 0.05,
+        },
     }
 }
 
@@ -79,6 +84,7 @@ pub fn explicit(name: &str, duration: f64) -> Stage {
         mass_damping: 0.0,
         initial_velocity: None,
         rim: HELD,
+        slip: None,
     }
 }
 

@@ -18,6 +18,7 @@ mod rim;
 mod rolling;
 mod runs;
 mod steps;
+mod timing;
 
 use hexroll::Error;
 use hexroll::gpu::Gpu;
@@ -26,7 +27,7 @@ use std::sync::Arc;
 
 type Check = fn(&Gpu);
 
-const CHECKS: [(&str, Check); 17] = [
+const CHECKS: [(&str, Check); 19] = [
     ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
     ("forces_as_pairs_are_the_cpus", forces::pairs),
     ("a_step_with_everything_is_the_cpus", steps::everything),
@@ -39,6 +40,8 @@ const CHECKS: [(&str, Check); 17] = [
     ("a_rerun_is_the_same_to_the_bit", repeat::bit_identical),
     ("far_from_the_origin_forces_are_the_same", far::offset),
     ("the_frame_follows_a_fast_wheel", far::followed),
+    ("timed_steps_are_the_steps", timing::passes),
+    ("limits_of_the_adapter_are_measured", timing::limits),
     ("a_run_that_goes_wrong_says_where", errors::failures),
     ("what_does_not_fit_is_refused", errors::limits),
     ("what_wgpu_refuses_is_an_error", errors::device_errors),

@@ -4,6 +4,7 @@ mod fixtures;
 mod hard_cases;
 mod in_time;
 mod multigrid;
+mod projected_multigrid;
 mod runs;
 mod scene_keys;
 mod tangents;

@@ -3,7 +3,7 @@
 use hexroll::scene::{Implicit, ImplicitScheme, ImplicitSolver, Linear, Method, Scene};
 
 fn scene(sets: &[&str]) -> Result<Scene, String> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/lat100_static_implicit.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/lat100_static.toml");
     let sets: Vec<String> = sets.iter().map(|s| s.to_string()).collect();
     Scene::load(path.as_ref(), &sets).map_err(|e| e.to_string())
 }
@@ -21,10 +21,15 @@ fn defaults_and_every_choice() {
         solver: ImplicitSolver::ActiveSet(Linear::Auto),
     };
     assert_eq!(method(&[]), Method::Implicit(default));
-    let relaxation = r#"stage.0.implicit={ scheme = "dynamic", step = "1 ms", damping = 0.1, solver = "relaxation", omega = 1.5, sweeps = 7 }"#;
+    let relaxation = r#"stage.0.implicit={ scheme = "dynamic", step = "1 ms", damping = 0.1, solver = "relaxation", omega = 1.5, sweeps = 7, corrections = "multigrid" }"#;
     let expected = Implicit {
         scheme: ImplicitScheme::Dynamic { step: 1e-3, damping: 0.1 },
-        solver: ImplicitSolver::Relaxation { omega: 1.5, tolerance: 1e-9, sweeps: 7 },
+        solver: ImplicitSolver::Relaxation {
+            omega: 1.5,
+            tolerance: 1e-9,
+            sweeps: 7,
+            corrections: Some(Linear::Multigrid),
+        },
         ..default
     };
     assert_eq!(method(&[relaxation]), Method::Implicit(expected));

@@ -93,28 +93,33 @@ fn contact_forces_agree_node_by_node_with_another_program() {
     assert!((square / total).sqrt() < 0.02);
 }
 
+/// The projected relaxation's state is the active set's, by status and force.
+fn assert_same(relaxed: &Simulation<'_>, reference: &Simulation<'_>) {
+    assert_eq!(relaxed.status, reference.status);
+    let largest = reference.contact.iter().flatten().fold(0.0f64, |m, f| m.max(f.abs()));
+    for (a, b) in relaxed.contact.iter().zip(&reference.contact) {
+        for i in 0..3 {
+            // Both stop at residuals of 1e-9 of the internal forces' norm, some 10 times the largest force.
+            assert!((a[i] - b[i]).abs() < 1e-6 * largest, "{a:?} {b:?}");
+        }
+    }
+}
+
+const RELAXED: Limits = Limits { tolerance: 1e-9, iterations: 30 };
+
 #[test]
 fn the_projected_relaxation_agrees_with_the_active_set() {
-    let model = wheel([32, 3, 3], Element::Q1p0);
+    let model = wheel([24, 3, 2], Element::Q1p0);
     for mu in [0.0, 0.1] {
         let mut reference = simulation(&model, Scheme::Static, Some(road(mu)));
-        let relaxation = Relaxation { omega: 1.6, tolerance: 1e-12, sweeps: 200_000 };
-        let limits = Limits { tolerance: 1e-9, iterations: 30 };
-        let inner = Inner::Relaxation(relaxation);
-        let mut relaxed = simulation_with(&model, Scheme::Static, Some(road(mu)), inner, limits);
+        let inner = Inner::Relaxation(Relaxation { omega: 1.6, tolerance: 1e-12, sweeps: 200_000 });
+        let mut relaxed = simulation_with(&model, Scheme::Static, Some(road(mu)), inner, RELAXED);
         press(&mut reference, &model, 4);
         press(&mut relaxed, &model, 4);
-        let states = |s: &Simulation<'_>| s.status.iter().filter(|s| **s == Status::Slip).count();
-        println!("mu {mu}: {} slip", states(&reference));
-        assert!(mu == 0.0 || states(&reference) > 0, "no node slips: nothing is compared");
-        assert_eq!(relaxed.status, reference.status);
-        let largest = reference.contact.iter().flatten().fold(0.0f64, |m, f| m.max(f.abs()));
-        for (a, b) in relaxed.contact.iter().zip(&reference.contact) {
-            for i in 0..3 {
-                // Both stop at residuals of 1e-9 of the internal forces' norm, some 10 times the largest force.
-                assert!((a[i] - b[i]).abs() < 1e-6 * largest, "{a:?} {b:?}");
-            }
-        }
+        let slips = reference.status.iter().filter(|s| **s == Status::Slip).count();
+        println!("mu {mu}: {slips} slip");
+        assert!(mu == 0.0 || slips > 0, "no node slips: nothing is compared");
+        assert_same(&relaxed, &reference);
     }
 }
 

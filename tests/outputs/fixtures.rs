@@ -36,6 +36,7 @@ pub fn snapshot(mesh: &Mesh, time: f64) -> Snapshot {
         area: scramble(30, i),
         pressure: scramble(31, i),
         slip_speed: scramble(32, i),
+        friction_energy: scramble(33, i),
         state: states[i % 3],
     };
     let scalars = |field| (0..mesh.hexes.len()).map(|e| scramble(field, e)).collect();

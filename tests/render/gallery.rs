@@ -69,7 +69,15 @@ fn slope(renderer: &mut Renderer, save: &dyn Fn(&str, RgbaImage)) {
                 let share = 0.5 + mesh.nodes[node as usize][0] / size;
                 let force = [-0.02 * sin, 1e-3 * share, 0.02 * share * cos].map(|f| f * size * size);
                 let state = if share < 0.9 { ContactState::Stick } else { ContactState::Slip };
-                ContactNode { node, force, area: 1e-6, pressure: 0.0, slip_speed: 0.0, state }
+                ContactNode {
+                    node,
+                    force,
+                    area: 1e-6,
+                    pressure: 0.0,
+                    slip_speed: 0.0,
+                    friction_energy: 0.0,
+                    state,
+                }
             })
             .collect();
         save(

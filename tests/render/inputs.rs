@@ -74,7 +74,8 @@ fn patch(mesh: &Mesh, snapshot: &Snapshot, middle: f64, scale: f64) -> Vec<Conta
         let s = (x[0] - middle) / half;
         if x[2] > 1e-9 || s.abs() >= 1.0 {
             let (force, area, pressure, slip_speed) = ([0.0; 3], 0.0, 0.0, 0.0);
-            return ContactNode { node, force, area, pressure, slip_speed, state: ContactState::Free };
+            let (friction_energy, state) = (0.0, ContactState::Free);
+            return ContactNode { node, force, area, pressure, slip_speed, friction_energy, state };
         }
         let area = 1.9e-5 * scale * scale;
         let pressure = 0.75e6 * (1.0 - s * s) * (1.0 - 0.3 * (x[1] / (9e-3 * scale)).powi(2));
@@ -83,7 +84,8 @@ fn patch(mesh: &Mesh, snapshot: &Snapshot, middle: f64, scale: f64) -> Vec<Conta
         let shear = if slips { normal } else { 0.6 * normal * (0.75 - s) };
         let force = [0.97 * shear, 0.24 * shear * x[1] / (9e-3 * scale), normal];
         let state = if slips { ContactState::Slip } else { ContactState::Stick };
-        ContactNode { node, force, area, pressure, slip_speed: if slips { 0.3 } else { 0.0 }, state }
+        let (slip_speed, friction_energy) = if slips { (0.3, 2e-6 * normal) } else { (0.0, 0.0) };
+        ContactNode { node, force, area, pressure, slip_speed, friction_energy, state }
     };
     mesh.surface.iter().map(node).collect()
 }

@@ -6,7 +6,7 @@ use super::Piece;
 use crate::cli::estimate::Steps;
 use crate::cli::format::si;
 use crate::scene::{
-    Drive, Field, Friction, ImplicitScheme, InitialVelocity, Method, Picture, RimMotion, Road, Scene,
+    Drive, Field, Friction, ImplicitScheme, InitialVelocity, Method, Picture, RimMotion, Road, Scene, Slip,
     Snapshots, Stage,
 };
 
@@ -51,7 +51,7 @@ pub fn plans(scene: &Scene, steps: &Steps) -> Vec<StagePlan> {
             InitialVelocity::Rim => "every node starts with the rim's rigid motion",
             InitialVelocity::Zero => "everything starts at rest",
         }),
-        rim: rim(&stage.rim),
+        rim: rim(&stage.rim).into_iter().chain(stage.slip.map(slip)).collect(),
     };
     scene.stages.iter().zip(&steps.by_stage).map(plan).collect()
 }
@@ -64,6 +64,11 @@ fn rim(motion: &RimMotion) -> Vec<String> {
     moving
         .filter_map(|((drive, name), units)| Some(format!("{name} {}", motion_text(drive, units)?)))
         .collect()
+}
+
+fn slip(slip: Slip) -> String {
+    let radius = slip.free_radius.map_or("as measured before".into(), |r| si(r, "m"));
+    format!("spin at a longitudinal slip of {} %, free-rolling radius {radius}", 100.0 * slip.kappa)
 }
 
 fn motion_text(drive: Drive, [way, load_unit, mass_unit]: [&str; 3]) -> Option<String> {

@@ -1,6 +1,6 @@
 //! Multiplicative relaxation of overlapping element blocks (24 unknowns each).
 
-use crate::implicit::matrix::BlockMatrix;
+use crate::implicit::matrix::{BlockMatrix, times};
 use crate::physics::tensor::Vec3;
 use rayon::prelude::*;
 
@@ -8,15 +8,22 @@ const N: usize = 24;
 
 /// Inverses of every element's 24x24 part of the assembled matrix. In single precision: a smoother need not be exact,
 /// and they are most of the memory.
-#[derive(Default)]
 pub struct ElementBlocks {
     inverses: Vec<[f32; N * N]>,
+    hexes: Vec<[u32; 8]>,
+    slabs: Slabs,
 }
 
 impl ElementBlocks {
+    /// Of a grid of `counts` elements, i fastest, with their nodes.
+    pub fn new(hexes: Vec<[u32; 8]>, counts: [usize; 3]) -> ElementBlocks {
+        ElementBlocks { inverses: Vec::new(), hexes, slabs: Slabs::new(counts) }
+    }
+
     /// Inverts the blocks. `None`: one is singular.
-    pub fn prepare(&mut self, hexes: &[[u32; 8]], matrix: &BlockMatrix) -> Option<()> {
-        self.inverses = hexes.par_iter().map(|hex| inverted(gathered(hex, matrix))).collect::<Option<_>>()?;
+    pub fn prepare(&mut self, matrix: &BlockMatrix) -> Option<()> {
+        let blocks = self.hexes.par_iter().map(|hex| inverted(gathered(hex, matrix)));
+        self.inverses = blocks.collect::<Option<_>>()?;
         Some(())
     }
 
@@ -24,33 +31,108 @@ impl ElementBlocks {
         self.inverses.len() * size_of::<[f32; N * N]>()
     }
 
-    /// One sweep over the elements, each solved exactly with the newest values around it.
-    pub fn sweep(
-        &self,
-        hexes: &[[u32; 8]],
-        matrix: &BlockMatrix,
-        b: &[Vec3<f64>],
-        x: &mut [Vec3<f64>],
-        backward: bool,
-    ) {
-        let count = hexes.len();
-        for k in 0..count {
-            let e = if backward { count - 1 - k } else { k };
-            let mut r = [0.0f32; N];
-            for (a, &n) in hexes[e].iter().enumerate() {
-                let ax = matrix.row_times(n as usize, x);
-                (0..3).for_each(|i| r[3 * a + i] = (b[n as usize][i] - ax[i]) as f32);
-            }
-            let inverse = &self.inverses[e];
-            let mut d = [0.0f32; N];
-            for (column, r) in inverse.chunks_exact(N).zip(r) {
-                for (d, c) in d.iter_mut().zip(column) {
-                    *d += c * r;
+    /// One sweep over the elements, each solved exactly with the newest values around it: slab by slab, backward in
+    /// the reverse order. The same bits whatever the number of threads.
+    pub fn sweep(&self, matrix: &BlockMatrix, b: &[Vec3<f64>], x: &mut [Vec3<f64>], way: Way) {
+        assert_eq!(x.len(), matrix.rows());
+        let x = Shared(x.as_mut_ptr());
+        let phase = |slabs: &[Vec<u32>]| {
+            slabs.par_iter().for_each(|elements| match way {
+                Way::Forward => elements.iter().for_each(|&e| self.relax(e, matrix, b, &x)),
+                Way::Backward => {
+                    elements.iter().rev().for_each(|&e| self.relax(e, matrix, b, &x));
                 }
+            });
+        };
+        let [first, second] = &self.slabs.phases;
+        match way {
+            Way::Forward => [first, second],
+            Way::Backward => [second, first],
+        }
+        .into_iter()
+        .for_each(|slabs| phase(slabs));
+    }
+
+    fn relax(&self, element: u32, matrix: &BlockMatrix, b: &[Vec3<f64>], x: &Shared) {
+        let hex = &self.hexes[element as usize];
+        let mut r = [0.0f32; N];
+        for (a, &n) in hex.iter().enumerate() {
+            let mut left = b[n as usize];
+            for (j, block) in matrix.row(n as usize) {
+                let ax = times(block, x.get(j));
+                (0..3).for_each(|i| left[i] -= ax[i]);
             }
-            for (a, &n) in hexes[e].iter().enumerate() {
-                (0..3).for_each(|i| x[n as usize][i] += f64::from(d[3 * a + i]));
+            (0..3).for_each(|i| r[3 * a + i] = left[i] as f32);
+        }
+        let mut d = [0.0f32; N];
+        for (column, r) in self.inverses[element as usize].chunks_exact(N).zip(r) {
+            for (d, c) in d.iter_mut().zip(column) {
+                *d += c * r;
             }
+        }
+        for (a, &n) in hex.iter().enumerate() {
+            x.add(n as usize, [0, 1, 2].map(|i| f64::from(d[3 * a + i])));
+        }
+    }
+}
+
+/// The way of a sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    Forward,
+    Backward,
+}
+
+/// Elements in two phases of slabs across direction i. An element reads the nodes of its neighbours and writes its own:
+/// slabs of a phase are more than two elements apart, so that none reads what another writes.
+struct Slabs {
+    phases: [Vec<Vec<u32>>; 2],
+}
+
+impl Slabs {
+    /// Of a grid of `counts` elements, i fastest.
+    fn new([ni, nj, nk]: [usize; 3]) -> Slabs {
+        /// Thickness of a slab with the two elements that part it from the next one; fewer would leave the second
+        /// phase's slabs too near to each other.
+        const THICK: usize = 8;
+        const APART: usize = 2;
+        let count = ni / THICK;
+        let slab = |from: usize, to: usize| -> Vec<u32> {
+            let rows = (0..nj * nk).map(|row| row * ni);
+            rows.flat_map(|row| (from..to).map(move |i| (row + i) as u32)).collect()
+        };
+        if count < 2 {
+            return Slabs { phases: [vec![slab(0, ni)], Vec::new()] };
+        }
+        let start = |s: usize| s * ni / count;
+        Slabs {
+            phases: [
+                (0..count).map(|s| slab(start(s), start(s + 1) - APART)).collect(),
+                (0..count).map(|s| slab(start(s + 1) - APART, start(s + 1))).collect(),
+            ],
+        }
+    }
+}
+
+/// Values that the slabs of a phase share.
+struct Shared(*mut Vec3<f64>);
+
+// SAFETY: slabs of a phase neither write what another one reads or writes (`Slabs`), and phases follow each other.
+unsafe impl Sync for Shared {}
+
+impl Shared {
+    #[inline(always)]
+    fn get(&self, n: usize) -> Vec3<f64> {
+        // SAFETY: n is a node of the matrix, whose rows are as many as the values (`sweep`); see above for threads.
+        unsafe { *self.0.add(n) }
+    }
+
+    #[inline(always)]
+    fn add(&self, n: usize, d: Vec3<f64>) {
+        // SAFETY: as in `get`.
+        unsafe {
+            let x = &mut *self.0.add(n);
+            (0..3).for_each(|i| x[i] += d[i]);
         }
     }
 }
@@ -102,6 +184,27 @@ fn inverted(mut m: Box<[[f64; N]; N]>) -> Option<[f32; N * N]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn slabs_hold_every_element_once_and_those_of_a_phase_do_not_touch() {
+        for counts in [[44, 5, 4], [17, 2, 3], [16, 1, 1], [9, 2, 2], [352, 1, 1]] {
+            let slabs = Slabs::new(counts);
+            let mut all: Vec<u32> = slabs.phases.iter().flatten().flatten().copied().collect();
+            all.sort_unstable();
+            assert!(all.iter().copied().eq(0..(counts.iter().product::<usize>()) as u32), "{counts:?}");
+            for phase in &slabs.phases {
+                let columns = |s: &Vec<u32>| s.iter().map(|e| *e as usize % counts[0]).collect::<Vec<_>>();
+                let columns: Vec<_> = phase.iter().map(columns).collect();
+                for (k, a) in columns.iter().enumerate() {
+                    for b in columns.iter().skip(k + 1) {
+                        // Around the ring: a column's nodes and their neighbours reach two columns further.
+                        let apart = |a: usize, b: usize| a.abs_diff(b).min(counts[0] - a.abs_diff(b));
+                        assert!(a.iter().all(|&a| b.iter().all(|&b| apart(a, b) > 2)), "{counts:?}");
+                    }
+                }
+            }
+        }
+    }
 
     #[test]
     fn an_inverse_undoes_its_block() {

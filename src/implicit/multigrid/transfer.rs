@@ -1,168 +1,199 @@
-//! Between a mesh and the one with half the elements in every direction.
+//! Between a mesh and the next coarser one: interpolation P, its transpose, and the Galerkin operator P^T A P.
+//!
+//! Interpolation is trilinear; on a ring of the cylindrical components, so that a rigid turn and a uniform pressure are
+//! interpolated exactly. On the finest mesh P ends in the unknowns of the system: components in a touching node's
+//! frame, and nothing where an unknown is fixed (the truncation of Graeser & Kornhuber, 2009).
 
-use crate::implicit::matrix::{Block, times, transposed};
-use crate::implicit::system::System;
+use super::grid::{Grid, Part};
+use crate::implicit::matrix::{Block, BlockMatrix, product, times, transposed};
 use crate::physics::tensor::Vec3;
-use crate::scene::MeshSpec;
 use rayon::prelude::*;
-
-/// A generated mesh's logical grid, numbered as [`crate::model::mesh`] does: j fastest, then i, then k.
-#[derive(Debug, Clone, Copy)]
-pub struct Grid {
-    counts: [usize; 3],
-    /// Whether direction i closes on itself; then it is a turn about the axle.
-    wrap: bool,
-}
-
-impl Grid {
-    pub fn new(spec: &MeshSpec) -> Grid {
-        match *spec {
-            MeshSpec::Ring { elements: [nc, nr, nw], .. } => Grid { counts: [nc, nw, nr], wrap: true },
-            MeshSpec::Block { elements, .. } => Grid { counts: elements, wrap: false },
-        }
-    }
-
-    fn rows(&self) -> usize {
-        self.counts[0] + usize::from(!self.wrap)
-    }
-
-    fn node(&self, i: usize, j: usize, k: usize) -> usize {
-        (k * (self.counts[1] + 1) + j) * self.rows() + i % self.rows()
-    }
-
-    fn node_count(&self) -> usize {
-        self.rows() * (self.counts[1] + 1) * (self.counts[2] + 1)
-    }
-}
 
 /// What a coarse node gives to a fine one.
 #[derive(Debug, Clone, Copy)]
 struct Share {
     coarse: u32,
     weight: f64,
-    /// Turn from the coarse node's place on the ring to the fine one's, in half coarse elements.
-    turn: i8,
+    /// Entry of the turns.
+    turn: u32,
 }
 
-/// Trilinear interpolation; on a ring of the cylindrical components, so that a rigid turn and a uniform pressure are
-/// interpolated exactly.
+/// The way from a node's vector in space to its unknowns; none where they are the same.
+pub type Ends = [Option<Block>];
+
 pub struct Transfer {
     /// Shares of fine node n: `shares[start[n]..start[n + 1]]`.
     start: Vec<u32>,
     shares: Vec<Share>,
-    /// The same by coarse node: (fine node, share index).
+    /// The same by coarse node: (fine node, share).
     coarse_start: Vec<u32>,
     to_fine: Vec<(u32, u32)>,
-    /// Fine node at every coarse node.
-    coincident: Vec<u32>,
-    /// Turn of half a coarse element about the axle.
-    half_turn: Block,
+    /// Turns about the axle, by `ahead + zero` finest elements.
+    turns: Vec<Block>,
+    zero: u32,
 }
 
 impl Transfer {
     pub fn new(fine: &Grid, coarse: &Grid) -> Transfer {
         let mut start = vec![0u32];
-        let mut shares = Vec::new();
-        for k in 0..=fine.counts[2] {
-            for j in 0..=fine.counts[1] {
-                for i in 0..fine.rows() {
-                    push_shares(coarse, [i, j, k], &mut shares);
-                    start.push(shares.len() as u32);
-                }
-            }
-        }
-        let mut coincident = vec![0; coarse.node_count()];
-        for k in 0..=coarse.counts[2] {
-            for i in 0..coarse.rows() {
-                for j in 0..=coarse.counts[1] {
-                    coincident[coarse.node(i, j, k)] = fine.node(2 * i, 2 * j, 2 * k) as u32;
-                }
-            }
-        }
-        let angle = if coarse.wrap { std::f64::consts::PI / coarse.counts[0] as f64 } else { 0.0 };
-        let (s, c) = angle.sin_cos();
-        // A turn about +y, the sense in which the generator counts.
-        let half_turn = [[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]];
-        let (coarse_start, to_fine) = by_coarse(coincident.len(), &start, &shares);
-        Transfer { start, shares, coarse_start, to_fine, coincident, half_turn }
+        let mut shares: Vec<(Share, isize)> = Vec::new();
+        fine.each_node(coarse, |parts| {
+            push_shares(coarse, parts, &mut shares);
+            start.push(shares.len() as u32);
+        });
+        let zero = shares.iter().map(|(_, ahead)| ahead.unsigned_abs()).max().unwrap_or(0);
+        let turn = |ahead: usize| {
+            let by = ahead as f64 - zero as f64;
+            let angle = fine.round().map_or(0.0, |n| std::f64::consts::TAU * by / n as f64);
+            let (s, c) = angle.sin_cos();
+            // A turn about +y, the sense in which the generator counts.
+            [[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]]
+        };
+        let turns = (0..=2 * zero).map(turn).collect();
+        let of = |(share, ahead): (Share, isize)| Share { turn: (zero as isize + ahead) as u32, ..share };
+        let shares: Vec<Share> = shares.into_iter().map(of).collect();
+        let (coarse_start, to_fine) = by_coarse(coarse.node_count(), &start, &shares);
+        Transfer { start, shares, coarse_start, to_fine, turns, zero: zero as u32 }
     }
 
-    /// Fine node that stands where coarse node n does.
-    pub fn coincident(&self, n: usize) -> usize {
-        self.coincident[n] as usize
+    fn of_fine(&self, n: usize) -> &[Share] {
+        &self.shares[self.start[n] as usize..self.start[n + 1] as usize]
+    }
+
+    fn of_coarse(&self, n: usize) -> impl Iterator<Item = (usize, &Share)> {
+        let range = self.coarse_start[n] as usize..self.coarse_start[n + 1] as usize;
+        self.to_fine[range].iter().map(|&(f, s)| (f as usize, &self.shares[s as usize]))
     }
 
     pub fn coarse_count(&self) -> usize {
-        self.coincident.len()
+        self.coarse_start.len() - 1
     }
 
-    fn turned(&self, turn: i8, v: Vec3<f64>) -> Vec3<f64> {
-        match turn {
-            0 => v,
-            1 => times(&self.half_turn, v),
-            _ => times(&transposed(&self.half_turn), v),
+    fn turned(&self, turn: u32, v: Vec3<f64>) -> Vec3<f64> {
+        if turn == self.zero { v } else { times(&self.turns[turn as usize], v) }
+    }
+
+    fn turned_back(&self, turn: u32, v: Vec3<f64>) -> Vec3<f64> {
+        self.turned(2 * self.zero - turn, v)
+    }
+
+    /// x += P y
+    pub fn add_prolonged(&self, ends: &Ends, coarse: &[Vec3<f64>], fine: &mut [Vec3<f64>]) {
+        fine.par_iter_mut().enumerate().for_each(|(n, x)| {
+            let mut sum = [0.0; 3];
+            for share in self.of_fine(n) {
+                let v = self.turned(share.turn, coarse[share.coarse as usize]);
+                (0..3).for_each(|i| sum[i] += share.weight * v[i]);
+            }
+            if let Some(end) = end(ends, n) {
+                sum = times(end, sum);
+            }
+            (0..3).for_each(|i| x[i] += sum[i]);
+        });
+    }
+
+    /// P^T r
+    pub fn restricted(&self, ends: &Ends, fine: &[Vec3<f64>]) -> Vec<Vec3<f64>> {
+        let one = |n: usize| {
+            let mut sum = [0.0; 3];
+            for (f, share) in self.of_coarse(n) {
+                let r = end(ends, f).map_or(fine[f], |end| times(&transposed(end), fine[f]));
+                let v = self.turned_back(share.turn, r);
+                (0..3).for_each(|i| sum[i] += share.weight * v[i]);
+            }
+            sum
+        };
+        (0..self.coarse_count()).into_par_iter().map(one).collect()
+    }
+
+    /// w end R: a block of P.
+    fn block(&self, ends: &Ends, n: usize, share: &Share) -> Block {
+        let turn = &self.turns[share.turn as usize];
+        let block = end(ends, n).map_or(*turn, |end| product(end, turn));
+        block.map(|row| row.map(|c| share.weight * c))
+    }
+
+    /// P^T A P into a matrix of the coarse mesh's pattern. Both grids are nested, so the product has that pattern.
+    pub fn galerkin(&self, ends: &Ends, fine: &BlockMatrix, coarse: &mut BlockMatrix) {
+        let BlockMatrix { start, columns, blocks } = coarse;
+        let mut rows: Vec<&mut [Block]> = Vec::with_capacity(self.coarse_count());
+        let mut rest = &mut blocks[..];
+        for n in 0..self.coarse_count() {
+            let (row, after) = rest.split_at_mut(start[n + 1] - start[n]);
+            rows.push(row);
+            rest = after;
         }
-    }
-
-    /// Fine unknowns from coarse ones, nothing where a fine unknown is fixed.
-    pub fn prolong(
-        &self,
-        coarse: &[Vec3<f64>],
-        fine_system: &System,
-        coarse_system: &System,
-    ) -> Vec<Vec3<f64>> {
-        let space: Vec<Vec3<f64>> = (0..coarse.len()).map(|n| coarse_system.to_space(n, coarse[n])).collect();
-        (0..self.start.len() - 1)
-            .into_par_iter()
-            .map(|n| {
-                let mut sum = [0.0; 3];
-                for share in &self.shares[self.start[n] as usize..self.start[n + 1] as usize] {
-                    let v = self.turned(share.turn, space[share.coarse as usize]);
-                    (0..3).for_each(|i| sum[i] += share.weight * v[i]);
+        let scratch = || Gather::new(fine.rows());
+        rows.into_par_iter().enumerate().for_each_init(scratch, |gather, (n, row)| {
+            let columns = &columns[start[n]..start[n + 1]];
+            row.fill([[0.0; 3]; 3]);
+            // Row n of P^T A first, then times P: each fine column is multiplied once.
+            for (f, share) in self.of_coarse(n) {
+                let left = transposed(&self.block(ends, f, share));
+                for (m, a) in fine.row(f) {
+                    add(gather.at(m), &product(&left, a));
                 }
-                fine_system.truncated(n, fine_system.to_frame(n, sum))
-            })
-            .collect()
-    }
-
-    /// The transpose of [`Transfer::prolong`].
-    pub fn restrict(
-        &self,
-        fine: &[Vec3<f64>],
-        fine_system: &System,
-        coarse_system: &System,
-    ) -> Vec<Vec3<f64>> {
-        let space: Vec<Vec3<f64>> = (0..fine.len())
-            .into_par_iter()
-            .map(|n| fine_system.to_space(n, fine_system.truncated(n, fine[n])))
-            .collect();
-        (0..self.coarse_count())
-            .into_par_iter()
-            .map(|n| {
-                let mut sum = [0.0; 3];
-                let range = self.coarse_start[n] as usize..self.coarse_start[n + 1] as usize;
-                for &(f, share) in &self.to_fine[range] {
-                    let share = &self.shares[share as usize];
-                    let v = self.turned(-share.turn, space[f as usize]);
-                    (0..3).for_each(|i| sum[i] += share.weight * v[i]);
+            }
+            for (m, sum) in gather.drain() {
+                for share in self.of_fine(m) {
+                    let at =
+                        columns.binary_search(&share.coarse).expect("the product has the mesh's pattern");
+                    add(&mut row[at], &product(&sum, &self.block(ends, m, share)));
                 }
-                coarse_system.truncated(n, coarse_system.to_frame(n, sum))
-            })
-            .collect()
+            }
+        });
     }
 }
 
-fn push_shares(coarse: &Grid, at: [usize; 3], shares: &mut Vec<Share>) {
-    let sides = |c: usize| -> Vec<(usize, i8)> {
-        if c.is_multiple_of(2) { vec![(c / 2, 0)] } else { vec![(c / 2, 1), (c / 2 + 1, -1)] }
-    };
-    let [i, j, k] = at.map(sides);
-    let weight = 1.0 / (i.len() * j.len() * k.len()) as f64;
-    for &(i, side) in &i {
-        for &(j, _) in &j {
-            for &(k, _) in &k {
-                let turn = if coarse.wrap { side } else { 0 };
-                shares.push(Share { coarse: coarse.node(i, j, k) as u32, weight, turn });
+fn end(ends: &Ends, n: usize) -> Option<&Block> {
+    ends.get(n).and_then(Option::as_ref)
+}
+
+fn add(a: &mut Block, b: &Block) {
+    for i in 0..3 {
+        (0..3).for_each(|j| a[i][j] += b[i][j]);
+    }
+}
+
+/// A row that is being summed up: blocks of the columns met so far, in the order they were met.
+struct Gather {
+    place: Vec<u32>,
+    met: Vec<(u32, Block)>,
+}
+
+impl Gather {
+    const NONE: u32 = u32::MAX;
+
+    fn new(columns: usize) -> Gather {
+        Gather { place: vec![Gather::NONE; columns], met: Vec::new() }
+    }
+
+    fn at(&mut self, column: usize) -> &mut Block {
+        if self.place[column] == Gather::NONE {
+            self.place[column] = self.met.len() as u32;
+            self.met.push((column as u32, [[0.0; 3]; 3]));
+        }
+        &mut self.met[self.place[column] as usize].1
+    }
+
+    fn drain(&mut self) -> impl Iterator<Item = (usize, Block)> {
+        for (column, _) in &self.met {
+            self.place[*column as usize] = Gather::NONE;
+        }
+        self.met.drain(..).map(|(column, block)| (column as usize, block))
+    }
+}
+
+fn push_shares(coarse: &Grid, [i, j, k]: [&[Part]; 3], shares: &mut Vec<(Share, isize)>) {
+    for i in i {
+        for j in j {
+            for k in k {
+                let share = Share {
+                    coarse: coarse.node(i.coarse, j.coarse, k.coarse) as u32,
+                    weight: i.weight * j.weight * k.weight,
+                    turn: 0,
+                };
+                shares.push((share, if coarse.round().is_some() { i.ahead } else { 0 }));
             }
         }
     }
@@ -189,34 +220,74 @@ fn by_coarse(count: usize, start: &[u32], shares: &[Share]) -> (Vec<u32>, Vec<(u
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::implicit::matrix::dot;
     use crate::model::mesh::Mesh;
+    use crate::scene::MeshSpec;
 
-    #[test]
-    fn coarse_nodes_stand_on_fine_ones_and_neighbours_around() {
+    fn cases() -> [MeshSpec; 3] {
         let ring =
             |elements| MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements };
-        let block = |elements| MeshSpec::Block { size: [1.0, 2.0, 3.0], elements };
-        for (fine, coarse) in [(ring([16, 4, 2]), ring([8, 2, 1])), (block([4, 2, 6]), block([2, 1, 3]))] {
-            let [f, c] = [&fine, &coarse].map(|s| Mesh::generate(s, [0.0; 3], None));
-            let t = Transfer::new(&Grid::new(&fine), &Grid::new(&coarse));
-            assert_eq!(t.start.len() - 1, f.nodes.len());
-            for (n, x) in c.nodes.iter().enumerate() {
-                let y = f.nodes[t.coincident(n)];
-                assert!((0..3).all(|i| (x[i] - y[i]).abs() < 1e-14), "{n}");
-            }
-            // Positions about the axle are a field whose cylindrical components are linear: interpolated exactly.
-            for (n, x) in f.nodes.iter().enumerate() {
-                let arm = |x: &[f64; 3]| -> Vec3<f64> {
-                    if Grid::new(&fine).wrap { std::array::from_fn(|i| x[i] - f.axle[i]) } else { *x }
-                };
-                let mut sum = [0.0; 3];
-                for s in &t.shares[t.start[n] as usize..t.start[n + 1] as usize] {
-                    let v = t.turned(s.turn, arm(&c.nodes[s.coarse as usize]));
-                    (0..3).for_each(|i| sum[i] += s.weight * v[i]);
+        [ring([16, 4, 2]), ring([17, 3, 5]), MeshSpec::Block { size: [1.0, 2.0, 3.0], elements: [4, 3, 7] }]
+    }
+
+    #[test]
+    fn positions_about_the_axle_are_interpolated_exactly() {
+        for spec in cases() {
+            let fine = Grid::new(&spec);
+            let coarse = fine.coarser().unwrap();
+            let mesh = Mesh::generate(&spec, [0.0; 3], None);
+            let ring = fine.round().is_some();
+            let arm = |x: &Vec3<f64>| -> Vec3<f64> {
+                if ring { std::array::from_fn(|i| x[i] - mesh.axle[i]) } else { *x }
+            };
+            let t = Transfer::new(&fine, &coarse);
+            // Coarse nodes are the fine nodes that take everything from one coarse node.
+            let mut at_coarse = vec![[0.0; 3]; coarse.node_count()];
+            for (n, x) in mesh.nodes.iter().enumerate() {
+                if let [share] = t.of_fine(n) {
+                    at_coarse[share.coarse as usize] = arm(x);
                 }
-                let x = arm(x);
-                assert!((0..3).all(|i| (sum[i] - x[i]).abs() < 1e-14), "{n}: {sum:?} {x:?}");
             }
+            // A field whose cylindrical components are linear.
+            let mut sum = vec![[0.0; 3]; mesh.nodes.len()];
+            t.add_prolonged(&[], &at_coarse, &mut sum);
+            for (sum, x) in sum.iter().zip(&mesh.nodes) {
+                let x = arm(x);
+                assert!((0..3).all(|i| (sum[i] - x[i]).abs() < 1e-14), "{sum:?} {x:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_coarse_operator_is_the_one_between_the_transfers() {
+        for spec in cases() {
+            let fine = Grid::new(&spec);
+            let coarse = fine.coarser().unwrap();
+            let t = Transfer::new(&fine, &coarse);
+            let mut a = BlockMatrix::of_mesh(fine.node_count(), &fine.hexes());
+            let number = |k: usize| ((k * 7919 + 13) % 101) as f64 / 101.0 - 0.5;
+            a.blocks.iter_mut().flatten().flatten().enumerate().for_each(|(k, c)| *c = number(k));
+            let mut ends = vec![None; fine.node_count()];
+            ends[3] = Some([[0.0; 3]; 3]);
+            ends[5] = Some([[0.6, 0.8, 0.0], [0.0; 3], [-0.8, 0.6, 0.0]]);
+            let mut c = BlockMatrix::of_mesh(coarse.node_count(), &coarse.hexes());
+            t.galerkin(&ends, &a, &mut c);
+            let field = |seed: usize| -> Vec<Vec3<f64>> {
+                (0..coarse.node_count()).map(|n| [0, 1, 2].map(|i| number(seed + 3 * n + i))).collect()
+            };
+            let (y, z) = (field(5), field(77));
+            let mut py = vec![[0.0; 3]; fine.node_count()];
+            let mut apy = py.clone();
+            t.add_prolonged(&ends, &y, &mut py);
+            a.multiply(&py, &mut apy);
+            let mut cy = vec![[0.0; 3]; coarse.node_count()];
+            c.multiply(&y, &mut cy);
+            let restricted = t.restricted(&ends, &apy);
+            // Sums of thousands of products of order one.
+            assert!(cy.iter().flatten().zip(restricted.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-11));
+            let mut pz = vec![[0.0; 3]; fine.node_count()];
+            t.add_prolonged(&ends, &z, &mut pz);
+            assert!((dot(&pz, &apy) - dot(&z, &cy)).abs() < 1e-10);
         }
     }
 }

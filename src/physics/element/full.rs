@@ -1,4 +1,4 @@
-use super::hex8::{self, Class, Corners};
+use super::hex8::{self, Corners, Shape};
 use super::q1p0::{points, pointwise_energy};
 use super::{Energy, Force, Formulation};
 use crate::physics::material::{Law, Viscosity};
@@ -10,18 +10,18 @@ pub struct Full;
 
 impl Formulation for Full {
     #[inline(always)]
-    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>>(
+    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
         law: &L,
         viscosity: &V,
-        class: &Class<S>,
+        class: &G,
         x: &Corners<S>,
         v: &Corners<S>,
     ) -> Force<S> {
-        points::<S, L, V, true>(law, viscosity, class, &hex8::gradients(x), v, S::zero())
+        points::<S, L, V, G, true>(law, viscosity, class, &hex8::gradients(x), v, S::zero())
     }
 
     #[inline(always)]
-    fn energy<S: Scalar, L: Law<S>>(law: &L, class: &Class<S>, x: &Corners<S>) -> Energy<S> {
-        pointwise_energy::<S, L, true>(law, class, &hex8::gradients(x))
+    fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
+        pointwise_energy::<S, L, G, true>(law, class, &hex8::gradients(x))
     }
 }

@@ -6,8 +6,8 @@
 
 use crate::physics::lanes::Lanes;
 use crate::physics::material::{Derivatives, Law};
-use crate::physics::scalar::{Real, Scalar};
-use crate::physics::tensor::{Mat3, Sym3, Vec3, add, axpy, cofactor, det, dot, scale, sub};
+use crate::physics::scalar::Scalar;
+use crate::physics::tensor::{Mat3, Sym3, Vec3, add, axpy, cofactor, cross, det, dot, neg, scale, sub};
 use crate::scene::Lumping;
 
 /// One vector a corner, numbered as in [`crate::model::mesh`].
@@ -29,6 +29,12 @@ pub const HOURGLASS: [[f64; 8]; 4] = [
 /// Gauss abscissa 1/sqrt(3).
 pub const GAUSS: f64 = 0.577_350_269_189_625_8;
 
+/// Element coordinates run from -1/8 to 1/8: the columns of A at the Gauss points are then sums and differences of
+/// corner positions without a factor. A point's weight is the volume it stands for in these coordinates.
+pub const WEIGHT: f64 = 1.0 / 512.0;
+/// From these coordinates to those from -1 to 1: lengths, and the metric M.
+pub const TO_UNIT: f64 = 8.0;
+
 /// Edge (or line) indices of the three columns at point q, whose bits are the signs of (xi, eta, zeta).
 #[inline(always)]
 pub const fn lines(q: usize) -> [usize; 3] {
@@ -39,30 +45,37 @@ pub const fn lines(q: usize) -> [usize; 3] {
 /// Columns of A on the Gauss lines: `columns[d][line]`.
 pub type LineColumns<S> = [[Vec3<S>; 4]; 3];
 
+/// (1 + g) a + (1 - g) b and (1 - g) a + (1 + g) b as (a + b) +- g (a - b): half of it additions, which a processor
+/// does beside its multiplications.
 #[inline(always)]
-fn mix<S: Scalar>(a: Vec3<S>, b: Vec3<S>) -> Vec3<S> {
-    let near = S::from_f64(0.5 * (1.0 + GAUSS));
-    let far = S::from_f64(0.5 * (1.0 - GAUSS));
-    axpy(a, near, scale(b, far))
+fn mix<S: Scalar>(a: Vec3<S>, b: Vec3<S>) -> [Vec3<S>; 2] {
+    let g = S::from_f64(GAUSS);
+    let (sum, difference) = (add(a, b), sub(a, b));
+    let less = [
+        difference[0].neg_mul_add(g, sum[0]),
+        difference[1].neg_mul_add(g, sum[1]),
+        difference[2].neg_mul_add(g, sum[2]),
+    ];
+    [axpy(difference, g, sum), less]
 }
 
-/// Values on four Gauss lines from values on four edges; symmetric, so its own transpose.
+/// Four times the values on four Gauss lines from values on four edges; symmetric, so its own transpose.
 #[inline(always)]
 fn interpolate<S: Scalar>(e: &[Vec3<S>; 4]) -> [Vec3<S>; 4] {
-    let (a0, a1) = (mix(e[0], e[1]), mix(e[1], e[0]));
-    let (b0, b1) = (mix(e[2], e[3]), mix(e[3], e[2]));
-    [mix(a0, b0), mix(a1, b1), mix(b0, a0), mix(b1, a1)]
+    let ([a0, a1], [b0, b1]) = (mix(e[0], e[1]), mix(e[2], e[3]));
+    let ([l0, l2], [l1, l3]) = (mix(a0, b0), mix(a1, b1));
+    [l0, l1, l2, l3]
 }
 
 #[inline(always)]
-fn half_edge<S: Scalar>(x: &Corners<S>, d: usize, m: usize) -> Vec3<S> {
+fn edge<S: Scalar>(x: &Corners<S>, d: usize, m: usize) -> Vec3<S> {
     let (a, b) = EDGES[d][m];
-    scale(sub(x[b], x[a]), S::from_f64(0.5))
+    sub(x[b], x[a])
 }
 
 #[inline(always)]
 fn direction<S: Scalar>(x: &Corners<S>, d: usize) -> [Vec3<S>; 4] {
-    interpolate(&[half_edge(x, d, 0), half_edge(x, d, 1), half_edge(x, d, 2), half_edge(x, d, 3)])
+    interpolate(&[edge(x, d, 0), edge(x, d, 1), edge(x, d, 2), edge(x, d, 3)])
 }
 
 /// A = dx/dxi on the Gauss lines.
@@ -87,18 +100,33 @@ pub fn accumulate<S: Scalar>(lines_force: &mut LineColumns<S>, q: usize, g: &Mat
     }
 }
 
+/// Volume of an element, exact for trilinear maps: three triple products of differences of corners (Grandy 1997).
+#[inline(always)]
+pub fn volume<S: Scalar>(x: &Corners<S>) -> S {
+    let (d10, d20, d30) = (sub(x[6], x[1]), sub(x[6], x[3]), sub(x[6], x[4]));
+    let (d01, d02, d03) = (sub(x[7], x[0]), sub(x[5], x[0]), sub(x[2], x[0]));
+    let twelvefold = dot(add(d10, d01), cross(d20, d03))
+        + dot(d01, cross(add(d20, d02), d30))
+        + dot(d10, cross(d02, add(d30, d03)));
+    twelvefold * S::from_f64(1.0 / 12.0)
+}
+
 /// Corner forces sum_q sum_d G_d dN_a/dxi_d from the sums on the lines.
 #[inline(always)]
 pub fn scatter<S: Scalar>(lines_force: &LineColumns<S>) -> Corners<S> {
-    let half = S::from_f64(0.5);
     let mut f = [[S::zero(); 3]; 8];
     for d in 0..3 {
         let edges = interpolate(&lines_force[d]);
         for m in 0..4 {
             let (a, b) = EDGES[d][m];
-            let g = scale(edges[m], half);
-            f[a] = sub(f[a], g);
-            f[b] = add(f[b], g);
+            if d == 0 {
+                // Every corner ends one edge of each direction: the first one starts its sum.
+                f[a] = neg(edges[m]);
+                f[b] = edges[m];
+            } else {
+                f[a] = sub(f[a], edges[m]);
+                f[b] = add(f[b], edges[m]);
+            }
         }
     }
     f
@@ -139,17 +167,19 @@ fn gram_column<S: Scalar>(a: &Mat3<S>, c: Vec3<S>) -> Vec3<S> {
 }
 
 /// Force matrix at a point, columns G_d with f_a = sum_d G_d dN_a/dxi_d:
-/// det J0 (2 W1 A M + 2 W2 (I1 A M - A M A^T A M)) + (WJ + p) cof A.
+/// dV (2 W1 A M + 2 W2 (I1 A M - A M A^T A M)) + weight (WJ + p) cof A, where dV = weight det J0. With the mean gradient
+/// in place of a point's, dV and weight are 1.
 #[inline(always)]
 pub fn force_matrix<S: Scalar, L: Law<S>>(
     k: &Kinematics<S>,
     d: &Derivatives<S>,
     pressure: S,
     cof: &Mat3<S>,
-    det_j0: S,
+    dv: S,
+    weight: S,
 ) -> Mat3<S> {
-    let two = det_j0 + det_j0;
-    let volumetric = d.wj + pressure;
+    let two = dv + dv;
+    let volumetric = (d.wj + pressure) * weight;
     let mut g = [[S::zero(); 3]; 3];
     if !L::HAS_I2 {
         let c1 = two * d.w1;
@@ -170,13 +200,14 @@ pub fn force_matrix<S: Scalar, L: Law<S>>(
 
 /// Reference geometry shared by all elements that differ by a rigid motion only.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
 pub struct Class<S> {
     /// M = J0^-1 J0^-T at the points [1/m2].
     pub metric: [Sym3<S>; 8],
-    /// det J0 at the points (the Gauss weights are one) [m3].
+    /// Volumes of the points, weight det J0 [m3], and 1 / det J0.
     pub det_j0: [S; 8],
     pub inverse_det_j0: [S; 8],
-    /// V = sum det J0 [m3], and its reciprocal.
+    /// V = sum of the points' volumes [m3], and its reciprocal.
     pub volume: S,
     pub inverse_volume: S,
     /// Volume-averaged gradients b_a of the class's first element [1/m].
@@ -188,43 +219,100 @@ pub struct Class<S> {
     pub hourglass_viscosity: S,
 }
 
-impl<T: Real> Class<T> {
-    /// The same geometry in every lane.
+impl<S> Class<S> {
+    /// Numbers of a class.
+    pub const NUMBERS: usize = 8 * (6 + 1 + 1) + 2 + 8 * 3 + 4 * 3 + 2;
+
+    /// All of them, in the order of the fields.
     #[inline(always)]
-    pub fn splat<N: Lanes<Real = T>>(&self) -> Class<N> {
-        let zero = N::zero();
-        let sym = Sym3 { xx: zero, yy: zero, zz: zero, xy: zero, xz: zero, yz: zero };
-        let mut class = Class {
-            metric: [sym; 8],
-            det_j0: [zero; 8],
-            inverse_det_j0: [zero; 8],
-            volume: N::splat(self.volume),
-            inverse_volume: N::splat(self.inverse_volume),
-            gradient: [[zero; 3]; 8],
-            gamma_x: [[zero; 3]; 4],
-            hourglass_stiffness: N::splat(self.hourglass_stiffness),
-            hourglass_viscosity: N::splat(self.hourglass_viscosity),
-        };
-        for q in 0..8 {
-            let m = &self.metric[q];
-            class.metric[q].xx = N::splat(m.xx);
-            class.metric[q].yy = N::splat(m.yy);
-            class.metric[q].zz = N::splat(m.zz);
-            class.metric[q].xy = N::splat(m.xy);
-            class.metric[q].xz = N::splat(m.xz);
-            class.metric[q].yz = N::splat(m.yz);
-            class.det_j0[q] = N::splat(self.det_j0[q]);
-            class.inverse_det_j0[q] = N::splat(self.inverse_det_j0[q]);
-            for d in 0..3 {
-                class.gradient[q][d] = N::splat(self.gradient[q][d]);
-            }
+    pub fn numbers(&self) -> &[S] {
+        // SAFETY: `repr(C)`, and every field is made of S.
+        unsafe { std::slice::from_raw_parts((&raw const *self).cast(), Self::NUMBERS) }
+    }
+}
+
+/// Where a formulation finds the reference geometry of its element, or of its lanes' elements, number by number: what
+/// is not used is not read, and a number that all lanes share is read as one.
+pub trait Shape<S: Scalar> {
+    /// Number `i` of [`Class::numbers`].
+    fn number(&self, i: usize) -> S;
+
+    #[inline(always)]
+    fn metric(&self, q: usize) -> Sym3<S> {
+        let i = 6 * q;
+        Sym3 {
+            xx: self.number(i),
+            yy: self.number(i + 1),
+            zz: self.number(i + 2),
+            xy: self.number(i + 3),
+            xz: self.number(i + 4),
+            yz: self.number(i + 5),
         }
-        for h in 0..4 {
-            for d in 0..3 {
-                class.gamma_x[h][d] = N::splat(self.gamma_x[h][d]);
-            }
-        }
-        class
+    }
+    #[inline(always)]
+    fn det_j0(&self, q: usize) -> S {
+        self.number(48 + q)
+    }
+    #[inline(always)]
+    fn inverse_det_j0(&self, q: usize) -> S {
+        self.number(56 + q)
+    }
+    #[inline(always)]
+    fn volume(&self) -> S {
+        self.number(64)
+    }
+    #[inline(always)]
+    fn inverse_volume(&self) -> S {
+        self.number(65)
+    }
+    #[inline(always)]
+    fn gradient(&self, a: usize) -> Vec3<S> {
+        let i = 66 + 3 * a;
+        [self.number(i), self.number(i + 1), self.number(i + 2)]
+    }
+    #[inline(always)]
+    fn gamma_x(&self, h: usize) -> Vec3<S> {
+        let i = 90 + 3 * h;
+        [self.number(i), self.number(i + 1), self.number(i + 2)]
+    }
+    #[inline(always)]
+    fn hourglass_stiffness(&self) -> S {
+        self.number(102)
+    }
+    #[inline(always)]
+    fn hourglass_viscosity(&self) -> S {
+        self.number(103)
+    }
+}
+
+impl<S: Scalar> Shape<S> for Class<S> {
+    #[inline(always)]
+    fn number(&self, i: usize) -> S {
+        self.numbers()[i]
+    }
+}
+
+/// One class for all lanes.
+#[derive(Debug, Clone, Copy)]
+pub struct SameShape<'a, T>(pub &'a Class<T>);
+
+impl<N: Lanes> Shape<N> for SameShape<'_, N::Real> {
+    #[inline(always)]
+    fn number(&self, i: usize) -> N {
+        N::splat(self.0.numbers()[i])
+    }
+}
+
+/// A class a lane: the numbers of all of them, vector by vector.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneShapes<'a, T>(pub &'a [T]);
+
+impl<N: Lanes> Shape<N> for LaneShapes<'_, N::Real> {
+    #[inline(always)]
+    fn number(&self, i: usize) -> N {
+        let vector = &self.0[i * N::WIDTH..(i + 1) * N::WIDTH];
+        // SAFETY: it is as long as a vector.
+        unsafe { N::load(vector.as_ptr(), 0) }
     }
 }
 
@@ -234,25 +322,25 @@ impl Class<f64> {
     pub fn new(X: &Corners<f64>, hourglass_modulus: f64, hourglass_eta: f64) -> Option<Self> {
         let columns = gradients(X);
         let j0: [Mat3<f64>; 8] = std::array::from_fn(|q| at(&columns, q));
-        let det_j0 = j0.map(|j| det(&j));
+        let det_j0 = j0.map(|j| WEIGHT * det(&j));
         let positive = |d: f64| d > 0.0;
         if !det_j0.iter().copied().all(positive) || !corner_jacobians(X).into_iter().all(positive) {
             return None;
         }
         let volume: f64 = det_j0.iter().sum();
-        // int dN_a/dX dV = sum_q cof(J0) grad_xi N, the force of a unit pressure
+        // int dN_a/dX dV = sum_q weight cof(J0) grad_xi N, the force of a unit pressure
         let mut unit = [[[0.0; 3]; 4]; 3];
         for (q, j) in j0.iter().enumerate() {
             accumulate(&mut unit, q, &cofactor(j));
         }
-        let gradient = scatter(&unit).map(|g| scale(g, 1.0 / volume));
+        let gradient = scatter(&unit).map(|g| scale(g, WEIGHT / volume));
         let b2: f64 = gradient.iter().map(|&b| dot(b, b)).sum();
         let gamma_x = HOURGLASS.map(|h| (0..8).fold([0.0; 3], |sum, a| axpy(X[a], h[a], sum)));
         let metric = std::array::from_fn(|q| metric(&j0[q]));
         Some(Class {
             metric,
             det_j0,
-            inverse_det_j0: det_j0.map(|d| 1.0 / d),
+            inverse_det_j0: det_j0.map(|d| WEIGHT / d),
             volume,
             inverse_volume: 1.0 / volume,
             gradient,

@@ -16,7 +16,7 @@ mod q1p0;
 mod uniform_gradient;
 
 pub use full::Full;
-pub use hex8::{Class, Corners};
+pub use hex8::{Class, Corners, LaneShapes, SameShape, Shape};
 pub use q1p0::Q1p0;
 pub use uniform_gradient::UniformGradient;
 
@@ -48,14 +48,14 @@ pub struct Energy<S> {
 /// An element formulation.
 pub trait Formulation: Copy + Send + Sync + 'static {
     /// Internal force of one element (or one lane batch) from corner positions and half-step velocities.
-    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>>(
+    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
         law: &L,
         viscosity: &V,
-        class: &Class<S>,
+        class: &G,
         x: &Corners<S>,
         v: &Corners<S>,
     ) -> Force<S>;
 
     /// Stored energy of one element, whose gradient with respect to x is the elastic part of the force.
-    fn energy<S: Scalar, L: Law<S>>(law: &L, class: &Class<S>, x: &Corners<S>) -> Energy<S>;
+    fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S>;
 }

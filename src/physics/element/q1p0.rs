@@ -1,59 +1,49 @@
-use super::hex8::{self, Class, Corners};
+use super::hex8::{self, Corners, Shape};
 use super::{Energy, Force, Formulation};
 use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::Scalar;
 use crate::physics::tensor::{Mat3, add, cofactor, det, dot};
 
 /// 2x2x2 points for the isochoric part, one element pressure p = U'(v/V) (Simo, Taylor & Pister's mean
-/// dilatation): no volumetric locking. v = sum det A is exact, and dv/dx_a comes from cof A.
+/// dilatation): no volumetric locking. dv/dx_a comes from cof A.
 #[derive(Debug, Clone, Copy)]
 pub struct Q1p0;
 
 impl Formulation for Q1p0 {
     #[inline(always)]
-    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>>(
+    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
         law: &L,
         viscosity: &V,
-        class: &Class<S>,
+        class: &G,
         x: &Corners<S>,
         v: &Corners<S>,
     ) -> Force<S> {
+        let pressure = law.dU(hex8::volume(x) * class.inverse_volume());
         let columns = hex8::gradients(x);
-        let volume = current_volume(&columns);
-        let pressure = law.dU(volume * class.inverse_volume);
-        points::<S, L, V, false>(law, viscosity, class, &columns, v, pressure)
+        points::<S, L, V, G, false>(law, viscosity, class, &columns, v, pressure)
     }
 
     #[inline(always)]
-    fn energy<S: Scalar, L: Law<S>>(law: &L, class: &Class<S>, x: &Corners<S>) -> Energy<S> {
+    fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
         let columns = hex8::gradients(x);
-        let volume = current_volume(&columns);
-        let mut energy = pointwise_energy::<S, L, false>(law, class, &columns);
-        energy.strain += class.volume * law.U(volume * class.inverse_volume);
+        let volume = hex8::volume(x);
+        let mut energy = pointwise_energy::<S, L, G, false>(law, class, &columns);
+        energy.strain += class.volume() * law.U(volume * class.inverse_volume());
         energy
     }
 }
 
-#[inline(always)]
-fn current_volume<S: Scalar>(columns: &hex8::LineColumns<S>) -> S {
-    let mut volume = S::zero();
-    for q in 0..8 {
-        volume += det(&hex8::at(columns, q));
-    }
-    volume
-}
-
 /// The loop over points. `POINTWISE`: the pressure is U'(J) of the point, not the element's `mean`.
 #[inline(always)]
-pub(super) fn points<S: Scalar, L: Law<S>, V: Viscosity<S>, const POINTWISE: bool>(
+pub(super) fn points<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>, const POINTWISE: bool>(
     law: &L,
     viscosity: &V,
-    class: &Class<S>,
+    class: &G,
     columns: &hex8::LineColumns<S>,
     v: &Corners<S>,
     mean: S,
 ) -> Force<S> {
-    let zero = S::zero();
+    let (zero, weight) = (S::zero(), S::from_f64(hex8::WEIGHT));
     let rates = if V::ON { hex8::gradients(v) } else { [[[zero; 3]; 4]; 3] };
     let mut lines = [[[zero; 3]; 4]; 3];
     let (mut min_j, mut power) = (S::from_f64(1e30), zero);
@@ -61,13 +51,13 @@ pub(super) fn points<S: Scalar, L: Law<S>, V: Viscosity<S>, const POINTWISE: boo
         let a = hex8::at(columns, q);
         let cof = cofactor(&a);
         let det_a = dot(a[0], cof[0]);
-        let j = det_a * class.inverse_det_j0[q];
-        let k = hex8::kinematics::<S, L>(&a, &class.metric[q]);
+        let j = det_a * class.inverse_det_j0(q);
+        let k = hex8::kinematics::<S, L>(&a, &class.metric(q));
         let d = law.first_piola(k.i1, k.i2, j);
         let pressure = if POINTWISE { law.dU(j) } else { mean };
-        let mut g = hex8::force_matrix::<S, L>(&k, &d, pressure, &cof, class.det_j0[q]);
+        let mut g = hex8::force_matrix::<S, L>(&k, &d, pressure, &cof, class.det_j0(q), weight);
         if V::ON {
-            let (viscous, point_power) = viscosity.stress(&hex8::at(&rates, q), &cof, det_a);
+            let (viscous, point_power) = viscosity.stress(&hex8::at(&rates, q), &cof, det_a, weight);
             g = sum(g, viscous);
             power += point_power;
         }
@@ -78,18 +68,18 @@ pub(super) fn points<S: Scalar, L: Law<S>, V: Viscosity<S>, const POINTWISE: boo
 }
 
 #[inline(always)]
-pub(super) fn pointwise_energy<S: Scalar, L: Law<S>, const POINTWISE: bool>(
+pub(super) fn pointwise_energy<S: Scalar, L: Law<S>, G: Shape<S>, const POINTWISE: bool>(
     law: &L,
-    class: &Class<S>,
+    class: &G,
     columns: &hex8::LineColumns<S>,
 ) -> Energy<S> {
     let (mut strain, mut min_j) = (S::zero(), S::from_f64(1e30));
     for q in 0..8 {
         let a = hex8::at(columns, q);
-        let j = det(&a) * class.inverse_det_j0[q];
-        let k = hex8::kinematics::<S, L>(&a, &class.metric[q]);
+        let j = det(&a) * class.inverse_det_j0(q);
+        let k = hex8::kinematics::<S, L>(&a, &class.metric(q));
         let volumetric = if POINTWISE { law.U(j) } else { S::zero() };
-        strain += class.det_j0[q] * (law.psi(k.i1, k.i2, j) + volumetric);
+        strain += class.det_j0(q) * (law.psi(k.i1, k.i2, j) + volumetric);
         min_j = min_j.min(j);
     }
     Energy { strain, hourglass: S::zero(), min_j }

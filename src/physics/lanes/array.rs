@@ -78,14 +78,7 @@ impl<T: Real, const N: usize> Scalar for Array<T, N> {
         for i in 0..N {
             y.0[i] = y.0[i].recip_cbrt_guess();
         }
-        let (third, four_thirds) = (Self::from_f64(1.0 / 3.0), Self::from_f64(4.0 / 3.0));
-        let mut n = 0;
-        while n < T::CBRT_STEPS {
-            let cube = y * y * y;
-            y = y * four_thirds - y * (third * self * cube);
-            n += 1;
-        }
-        y
+        super::recip_cbrt_from(y, self, T::CBRT_STEPS)
     }
 
     #[inline(always)]
@@ -136,6 +129,24 @@ impl<T: Real, const N: usize> Lanes for Array<T, N> {
     #[inline(always)]
     fn lane(self, lane: usize) -> T {
         self.0[lane]
+    }
+
+    #[inline(always)]
+    fn moved_up(self, before: Self) -> Self {
+        let mut moved = self.0;
+        moved[0] = before.0[N - 1];
+        for i in 1..N {
+            moved[i] = self.0[i - 1];
+        }
+        Array(moved)
+    }
+
+    #[inline(always)]
+    fn choose(mut self, other: Self, mask: u32) -> Self {
+        for i in 0..N {
+            self.0[i] = if mask >> i & 1 == 1 { self.0[i] } else { other.0[i] };
+        }
+        self
     }
 
     #[inline(always)]

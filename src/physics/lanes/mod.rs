@@ -15,6 +15,31 @@ pub use x86::{F32x8, F32x16, F64x4, F64x8};
 
 use super::scalar::{Real, Scalar};
 
+/// Most lanes any type has.
+pub const WIDEST: usize = 16;
+
+/// A mask of the first `count` lanes.
+#[inline(always)]
+pub fn first(count: usize) -> u32 {
+    (1 << count) - 1
+}
+
+/// x^(-1/3) from a first guess y within 4 %: with r = 1 - x y^3, y (1 - r)^(-1/3) by its series to r^3. The relative
+/// error after it is 35/243 r^4: 3.5e-5 after one step, 1e-17 after two.
+#[inline(always)]
+fn recip_cbrt_from<S: Scalar>(guess: S, x: S, steps: usize) -> S {
+    let (a, b, c) = (S::from_f64(1.0 / 3.0), S::from_f64(2.0 / 9.0), S::from_f64(14.0 / 81.0));
+    let mut y = guess;
+    let mut n = 0;
+    while n < steps {
+        let r = (x * y).neg_mul_add(y * y, S::one());
+        let series = r.mul_add(c, b).mul_add(r, a);
+        y = (y * r).mul_add(series, y);
+        n += 1;
+    }
+    y
+}
+
 /// Lanes of a real number.
 pub trait Lanes: Scalar {
     type Real: Real;
@@ -37,6 +62,22 @@ pub trait Lanes: Scalar {
     unsafe fn gather(slice: *const Self::Real, at: &[u32]) -> Self;
     /// One lane.
     fn lane(self, lane: usize) -> Self::Real;
+    /// The lanes moved up by one, the last lane of `before` moved in.
+    fn moved_up(self, before: Self) -> Self;
+    /// These lanes where `mask` has a bit (lane 0 the lowest), those of `other` elsewhere.
+    fn choose(self, other: Self, mask: u32) -> Self;
+    /// Adds lane by lane to WIDTH sums in double precision.
+    ///
+    /// # Safety
+    /// `sums` points to WIDTH numbers.
+    #[inline(always)]
+    unsafe fn add_to(self, sums: *mut f64) {
+        let mut values = [<Self::Real as Scalar>::zero(); WIDEST];
+        unsafe { self.store(values.as_mut_ptr(), 0) };
+        for lane in 0..Self::WIDTH {
+            unsafe { *sums.add(lane) += values[lane].to_f64() };
+        }
+    }
     /// Whether any lane is not greater than zero (or is not a number).
     fn any_not_positive(self) -> bool;
     /// Whether any lane is less than zero.

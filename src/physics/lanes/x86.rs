@@ -2,14 +2,14 @@
 //! times as long over the others.
 
 use super::Lanes;
-use crate::physics::scalar::Scalar;
+use crate::physics::scalar::{Real, Scalar};
 use std::arch::x86_64::*;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 macro_rules! lanes {
-    ($(#[$doc:meta])* $name:ident, $vector:ty, $real:ty, $width:literal, $steps:literal,
+    ($(#[$doc:meta])* $name:ident, $vector:ty, $real:ty, $width:literal,
      $set:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $fmadd:ident, $fnmadd:ident, $load:ident,
-     $store:ident, $guess:ident, $min:ident, $not_positive:ident, $negative:ident) => {
+     $store:ident, $guess:ident, $min:ident, $not_positive:ident, $negative:ident, $fmsub:ident, $up:ident, $choose:ident) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy)]
         #[repr(transparent)]
@@ -75,17 +75,16 @@ macro_rules! lanes {
                 unsafe { $name($fmadd(self.0, a.0, b.0)) }
             }
             #[inline(always)]
+            fn mul_sub(self, a: Self, b: Self) -> Self {
+                unsafe { $name($fmsub(self.0, a.0, b.0)) }
+            }
+            #[inline(always)]
+            fn neg_mul_add(self, a: Self, b: Self) -> Self {
+                unsafe { $name($fnmadd(self.0, a.0, b.0)) }
+            }
+            #[inline(always)]
             fn recip_cbrt(self) -> Self {
-                let mut y = unsafe { $name($guess(self.0)) };
-                let (third, four_thirds) = (Self::from_f64(1.0 / 3.0), Self::from_f64(4.0 / 3.0));
-                let scaled = third * self;
-                let mut n = 0;
-                while n < $steps {
-                    let cube = y * y * y;
-                    y = unsafe { $name($fnmadd(y.0, (scaled * cube).0, (y * four_thirds).0)) };
-                    n += 1;
-                }
-                y
+                super::recip_cbrt_from(unsafe { $name($guess(self.0)) }, self, <$real as Real>::CBRT_STEPS)
             }
             #[inline(always)]
             fn ln(self) -> Self {
@@ -130,6 +129,14 @@ macro_rules! lanes {
                 let mut values = [0.0 as $real; $width];
                 unsafe { $store(values.as_mut_ptr(), self.0) };
                 values[lane]
+            }
+            #[inline(always)]
+            fn moved_up(self, before: Self) -> Self {
+                unsafe { $name($up(self.0, before.0)) }
+            }
+            #[inline(always)]
+            fn choose(self, other: Self, mask: u32) -> Self {
+                unsafe { $name($choose(self.0, other.0, mask)) }
             }
             #[inline(always)]
             fn any_not_positive(self) -> bool {
@@ -182,6 +189,63 @@ unsafe fn guess_f32_256(x: __m256) -> __m256 {
         let third = _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_castps_si256(x)), _mm256_set1_ps(-1.0 / 3.0));
         let guess = _mm256_cvttps_epi32(_mm256_add_ps(third, _mm256_set1_ps(super::array::GUESS_F32)));
         _mm256_castsi256_ps(guess)
+    }
+}
+
+/// Lanes moved up by one, the last of `before` moved in.
+#[inline(always)]
+unsafe fn up_f64(a: __m512d, before: __m512d) -> __m512d {
+    unsafe {
+        _mm512_castsi512_pd(_mm512_alignr_epi64::<7>(_mm512_castpd_si512(a), _mm512_castpd_si512(before)))
+    }
+}
+
+#[inline(always)]
+unsafe fn up_f32(a: __m512, before: __m512) -> __m512 {
+    unsafe {
+        _mm512_castsi512_ps(_mm512_alignr_epi32::<15>(_mm512_castps_si512(a), _mm512_castps_si512(before)))
+    }
+}
+
+#[inline(always)]
+unsafe fn up_f64_256(a: __m256d, before: __m256d) -> __m256d {
+    unsafe { _mm256_shuffle_pd::<0b0101>(_mm256_permute2f128_pd::<0x21>(before, a), a) }
+}
+
+#[inline(always)]
+unsafe fn up_f32_256(a: __m256, before: __m256) -> __m256 {
+    unsafe {
+        let middle = _mm256_castps_si256(_mm256_permute2f128_ps::<0x21>(before, a));
+        _mm256_castsi256_ps(_mm256_alignr_epi8::<12>(_mm256_castps_si256(a), middle))
+    }
+}
+
+/// Lanes of `a` where the mask has a bit.
+#[inline(always)]
+unsafe fn choose_f64(a: __m512d, other: __m512d, mask: u32) -> __m512d {
+    unsafe { _mm512_mask_blend_pd(mask as u8, other, a) }
+}
+
+#[inline(always)]
+unsafe fn choose_f32(a: __m512, other: __m512, mask: u32) -> __m512 {
+    unsafe { _mm512_mask_blend_ps(mask as u16, other, a) }
+}
+
+#[inline(always)]
+unsafe fn choose_f64_256(a: __m256d, other: __m256d, mask: u32) -> __m256d {
+    unsafe {
+        let bits = _mm256_setr_epi64x(1, 2, 4, 8);
+        let on = _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(i64::from(mask)), bits), bits);
+        _mm256_blendv_pd(other, a, _mm256_castsi256_pd(on))
+    }
+}
+
+#[inline(always)]
+unsafe fn choose_f32_256(a: __m256, other: __m256, mask: u32) -> __m256 {
+    unsafe {
+        let bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+        let on = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(mask as i32), bits), bits);
+        _mm256_blendv_ps(other, a, _mm256_castsi256_ps(on))
     }
 }
 
@@ -266,25 +330,29 @@ narrow!(
 
 lanes!(
     /// Eight f64, AVX-512.
-    F64x8, __m512d, f64, 8, 4,
+    F64x8, __m512d, f64, 8,
     _mm512_set1_pd, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_fmadd_pd, _mm512_fnmadd_pd,
-    _mm512_loadu_pd, _mm512_storeu_pd, guess_f64, min_f64, not_positive_f64, negative_f64
+    _mm512_loadu_pd, _mm512_storeu_pd, guess_f64, min_f64, not_positive_f64, negative_f64,
+    _mm512_fmsub_pd, up_f64, choose_f64
 );
 lanes!(
     /// Sixteen f32, AVX-512.
-    F32x16, __m512, f32, 16, 3,
+    F32x16, __m512, f32, 16,
     _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_fmadd_ps, _mm512_fnmadd_ps,
-    _mm512_loadu_ps, _mm512_storeu_ps, guess_f32, min_f32, not_positive_f32, negative_f32
+    _mm512_loadu_ps, _mm512_storeu_ps, guess_f32, min_f32, not_positive_f32, negative_f32,
+    _mm512_fmsub_ps, up_f32, choose_f32
 );
 lanes!(
     /// Four f64, AVX2 with FMA.
-    F64x4, __m256d, f64, 4, 4,
+    F64x4, __m256d, f64, 4,
     _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_fmadd_pd, _mm256_fnmadd_pd,
-    _mm256_loadu_pd, _mm256_storeu_pd, guess_f64_256, min_f64_256, not_positive_f64_256, negative_f64_256
+    _mm256_loadu_pd, _mm256_storeu_pd, guess_f64_256, min_f64_256, not_positive_f64_256, negative_f64_256,
+    _mm256_fmsub_pd, up_f64_256, choose_f64_256
 );
 lanes!(
     /// Eight f32, AVX2 with FMA.
-    F32x8, __m256, f32, 8, 3,
+    F32x8, __m256, f32, 8,
     _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_fmadd_ps, _mm256_fnmadd_ps,
-    _mm256_loadu_ps, _mm256_storeu_ps, guess_f32_256, min_f32_256, not_positive_f32_256, negative_f32_256
+    _mm256_loadu_ps, _mm256_storeu_ps, guess_f32_256, min_f32_256, not_positive_f32_256, negative_f32_256,
+    _mm256_fmsub_ps, up_f32_256, choose_f32_256
 );

@@ -8,8 +8,9 @@ pub trait Viscosity<S: Scalar>: Copy + Send + Sync + 'static {
     fn new(eta: f64) -> Self;
     /// eta [Pa s].
     fn eta(&self) -> S;
-    /// Columns sigma_v cof(A)_d of the force matrix and the power sigma_v : L det A, from A, its rate and cofactor.
-    fn stress(&self, a_dot: &Mat3<S>, cof: &Mat3<S>, det: S) -> (Mat3<S>, S);
+    /// Columns weight sigma_v cof(A)_d of the force matrix and the power weight sigma_v : L det A, from A's rate, its
+    /// cofactor and determinant.
+    fn stress(&self, a_dot: &Mat3<S>, cof: &Mat3<S>, det: S, weight: S) -> (Mat3<S>, S);
 }
 
 /// No viscosity.
@@ -25,7 +26,7 @@ impl<S: Scalar> Viscosity<S> for Inviscid {
         S::zero()
     }
     #[inline(always)]
-    fn stress(&self, _a_dot: &Mat3<S>, _cof: &Mat3<S>, _det: S) -> (Mat3<S>, S) {
+    fn stress(&self, _a_dot: &Mat3<S>, _cof: &Mat3<S>, _det: S, _weight: S) -> (Mat3<S>, S) {
         ([[S::zero(); 3]; 3], S::zero())
     }
 }
@@ -50,8 +51,8 @@ impl<S: Scalar> Viscosity<S> for KelvinVoigt<S> {
     }
 
     #[inline(always)]
-    fn stress(&self, a_dot: &Mat3<S>, cof: &Mat3<S>, det: S) -> (Mat3<S>, S) {
-        let r = S::one() / det;
+    fn stress(&self, a_dot: &Mat3<S>, cof: &Mat3<S>, det: S, weight: S) -> (Mat3<S>, S) {
+        let (r, eta) = (S::one() / det, self.eta * weight);
         let l = [row(a_dot, cof, r, 0), row(a_dot, cof, r, 1), row(a_dot, cof, r, 2)];
         let trace = l[0][0] + l[1][1] + l[2][2];
         let mean = (trace + trace) * S::from_f64(1.0 / 3.0);
@@ -59,8 +60,7 @@ impl<S: Scalar> Viscosity<S> for KelvinVoigt<S> {
         let xx = l[0][0] + l[0][0] - mean;
         let yy = l[1][1] + l[1][1] - mean;
         let zz = l[2][2] + l[2][2] - mean;
-        let sigma =
-            [scale([xx, xy, xz], self.eta), scale([xy, yy, yz], self.eta), scale([xz, yz, zz], self.eta)];
+        let sigma = [scale([xx, xy, xz], eta), scale([xy, yy, yz], eta), scale([xz, yz, zz], eta)];
         let power = dot(sigma[0], l[0]) + dot(sigma[1], l[1]) + dot(sigma[2], l[2]);
         let g = [
             combined(&sigma, cof[0][0], cof[0][1], cof[0][2]),

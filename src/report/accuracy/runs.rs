@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::time::Instant;
 
-use super::cases::{MEAN, Machine, Problem, ROLL, Setting, element_name, scene};
+use super::cases::{MEAN, Machine, Problem, Setting, element_name, scene};
 use crate::cpu::{self, Precision};
 use crate::engine::{Engine, Step};
 use crate::gpu::{Gpu, GpuEngine};
@@ -231,7 +231,6 @@ fn rolled(problem: Problem, setting: &Setting, threads: usize, gpu: Option<&Gpu>
     let wall = start.elapsed().as_secs_f64();
     let rows = &recorder.0;
     let count = if problem == Problem::Static { 1 } else { (MEAN / scene.output.sample).round() as usize };
-    debug_assert!(ROLL > MEAN);
     let mean = |f: fn(&Sample) -> f64| rows[rows.len() - count..].iter().map(f).sum::<f64>() / count as f64;
     let value = match problem {
         Problem::Straight => mean(|s| s.road_fx_N),

@@ -118,7 +118,8 @@ fn attempt(scene: &Scene, model: &Model, safety: f64, limit: &mut Limit) -> bool
                 limit.min_jacobian =
                     outcome.samples.iter().map(|s| s.min_jacobian).fold(f64::INFINITY, f64::min);
             }
-            if !(stored < GARBAGE) {
+            // NaN is garbage too.
+            if stored.is_nan() || stored >= GARBAGE {
                 let percent = short(100.0 * stored);
                 limit.silent = Some(format!("safety {safety}: ends, stored energy off by {percent} %"));
                 limit.beyond = limit.silent.clone();

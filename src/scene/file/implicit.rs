@@ -17,7 +17,7 @@ pub(super) fn implicit(stage: &Table) -> Result<Implicit> {
     let active_set = table.get("solver").map_or(Ok(true), |item| item.choice(&names, &[]))?;
     let of_scheme: &[&str] = if is_static { &["increments"] } else { &["step", "damping"] };
     let of_solver: &[&str] =
-        if active_set { &["linear"] } else { &["omega", "relaxation_tolerance", "sweeps"] };
+        if active_set { &["linear"] } else { &["omega", "relaxation_tolerance", "sweeps", "corrections"] };
     table.only(&[&COMMON, of_scheme, of_solver].concat(), &[])?;
     Ok(Implicit {
         scheme: if is_static { statics(stage, &table)? } else { dynamics(stage, &table)? },
@@ -55,14 +55,15 @@ fn dynamics(stage: &Table, table: &Table) -> Result<ImplicitScheme> {
     Ok(ImplicitScheme::Dynamic { step, damping: table.number_or("damping", 0.0, Bound::NotNegative)? })
 }
 
+const LINEAR: [(&str, Linear); 4] = [
+    ("auto", Linear::Auto),
+    ("direct", Linear::Direct),
+    ("multigrid", Linear::Multigrid),
+    ("block-jacobi", Linear::BlockJacobi),
+];
+
 fn linear(table: &Table) -> Result<ImplicitSolver> {
-    let names = [
-        ("auto", Linear::Auto),
-        ("direct", Linear::Direct),
-        ("multigrid", Linear::Multigrid),
-        ("block-jacobi", Linear::BlockJacobi),
-    ];
-    let linear = table.get("linear").map_or(Ok(Linear::Auto), |item| item.choice(&names, &[]))?;
+    let linear = table.get("linear").map_or(Ok(Linear::Auto), |item| item.choice(&LINEAR, &[]))?;
     Ok(ImplicitSolver::ActiveSet(linear))
 }
 
@@ -73,9 +74,11 @@ fn relaxation(table: &Table) -> Result<ImplicitSolver> {
             .at("omega")
             .error(format!("relaxation diverges at omega = {omega}"), "write a number between 0 and 2"));
     }
+    let names: Vec<_> = LINEAR.map(|(name, l)| (name, Some(l))).into_iter().chain([("none", None)]).collect();
     Ok(ImplicitSolver::Relaxation {
         omega,
         tolerance: table.number_or("relaxation_tolerance", 1e-9, Bound::Positive)?,
         sweeps: count_or(table, "sweeps", 100_000, "is needed to relax anything")?,
+        corrections: table.get("corrections").map_or(Ok(None), |item| item.choice(&names, &[]))?,
     })
 }

@@ -99,6 +99,8 @@
 //! linear = "auto"                     # default | "direct" | "multigrid" | "block-jacobi"; only "active-set"
 //! omega = 1.0                         # default, 0..2; only "relaxation"
 //! relaxation_tolerance = 1e-9         # default; residual over internal force (eq. 25); only "relaxation"
+//! corrections = "none"                # default | "auto" | "multigrid" | "direct" | "block-jacobi": linear corrections
+//!                                     # between the sweeps, truncated where nodes touch; only "relaxation"
 //! sweeps = 100000                     # default; the most of one relaxation; only "relaxation"
 //!
 //! [stage.rim]                         # needs [rim]; a component that is not named holds where it is
@@ -109,12 +111,16 @@
 //! camber = { angle = "2 deg", ramp = "20 ms" }    # about the new x; the same
 //! spin = { velocity = "70 rad/s" }                # about the axle; or angle; or free:
 //! spin = { moment = "0 N m", inertia = "1e-5 kg m2", ramp = "0 s" }
+//! spin = { slip = 0.05, free_radius = "38.9 mm", ramp = "0 s" }   # longitudinal: omega = (1 + slip) v / free_radius;
+//!                                     # "measured": in the last stage before that spins freely under no moment
 //!
 //! [output]
 //! sample = "1 ms"                     # length of a history window, > 0, no longer than any stage
 //! snapshots = "10 ms"                 # whole fields: default "stage-ends" | "none" | every so long
 //! pictures = ["body:von-mises", "footprint"]   # of every snapshot; default none; body: displacement, velocity,
-//!                                     # contact-force, pressure, volume-ratio, von-mises
+//!                                     # contact-force, pressure, volume-ratio, von-mises, friction-energy
+//! chatter_limit = 0.05                # default; scatter of the contact force from step to step, over the mean normal
+//!                                     # force, above which the summary names it
 //! ```
 
 mod body;
@@ -150,7 +156,7 @@ const SECTIONS: [&str; 12] = [
 ];
 
 const LATER: [Later; 5] = [
-    ("sweep", "run the scene once per value with --set"),
+    ("sweep", "run hexroll sweep SCENE --over KEY=VALUES, or the scene once per value with --set"),
     ("checkpoint", "run the scene in one piece"),
     ("restart", "run the scene in one piece"),
     ("bodies", "describe one [body]"),
@@ -203,7 +209,7 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
         None => Vec::new(),
     };
     let friction = table.get("friction").map(|item| world::friction(&item, road.is_some())).transpose()?;
-    let stages = stage::stages(&table.section("stage", "[[stage]]")?, rim.is_some())?;
+    let stages = stage::stages(&table.section("stage", "[[stage]]")?, rim.is_some(), road.as_ref())?;
     let output = output::output(&table.section("output", "[output]")?, &stages, road.is_some())?;
     let implicit = stages.iter().any(|s| matches!(s.method, super::Method::Implicit(_)));
     let scene = Scene {

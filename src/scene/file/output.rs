@@ -5,7 +5,7 @@ use crate::scene::reader::{Bound, Item};
 use crate::scene::units::TIME;
 use crate::scene::{Field, Output, Picture, Snapshots, Stage};
 
-const PICTURES: [(&str, Picture); 7] = [
+const PICTURES: [(&str, Picture); 8] = [
     ("footprint", Picture::Footprint),
     ("body:displacement", Picture::Body(Field::Displacement)),
     ("body:velocity", Picture::Body(Field::Velocity)),
@@ -13,11 +13,13 @@ const PICTURES: [(&str, Picture); 7] = [
     ("body:pressure", Picture::Body(Field::Pressure)),
     ("body:volume-ratio", Picture::Body(Field::VolumeRatio)),
     ("body:von-mises", Picture::Body(Field::VonMises)),
+    ("body:friction-energy", Picture::Body(Field::FrictionEnergy)),
 ];
 
 pub(super) fn output(item: &Item, stages: &[Stage], has_road: bool) -> Result<Output> {
     let table = item.table()?;
-    table.only(&["sample", "snapshots", "pictures"], &[("spectra", "analyse history.csv")])?;
+    table
+        .only(&["sample", "snapshots", "pictures", "chatter_limit"], &[("spectra", "analyse history.csv")])?;
     let sample = table.quantity("sample", &TIME, Bound::Positive)?;
     if let Some(stage) = stages.iter().find(|s| s.duration < sample) {
         return Err(table.at("sample").error(
@@ -27,7 +29,8 @@ pub(super) fn output(item: &Item, stages: &[Stage], has_road: bool) -> Result<Ou
     }
     let snapshots = table.get("snapshots").map_or(Ok(Snapshots::StageEnds), |s| snapshots(&s, sample))?;
     let pictures = table.get("pictures").map_or(Ok(Vec::new()), |p| pictures(&p, has_road))?;
-    Ok(Output { sample, snapshots, pictures })
+    let chatter_limit = table.number_or("chatter_limit", 0.05, Bound::Positive)?;
+    Ok(Output { sample, snapshots, pictures, chatter_limit })
 }
 
 fn snapshots(item: &Item, sample: f64) -> Result<Snapshots> {
@@ -53,7 +56,8 @@ fn snapshots(item: &Item, sample: f64) -> Result<Snapshots> {
 }
 
 fn pictures(item: &Item, has_road: bool) -> Result<Vec<Picture>> {
-    let of_contact = |p| matches!(p, Picture::Footprint | Picture::Body(Field::ContactForce));
+    let of_contact =
+        |p| matches!(p, Picture::Footprint | Picture::Body(Field::ContactForce | Field::FrictionEnergy));
     let picture = |entry: &Item| {
         let picture = entry.choice(&PICTURES, &[])?;
         if of_contact(picture) && !has_road {

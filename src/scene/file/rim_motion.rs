@@ -5,7 +5,7 @@ use crate::scene::reader::{Bound, Table};
 use crate::scene::units::{
     ANGLE, ANGULAR_VELOCITY, Dimension, FORCE, INERTIA, LENGTH, MASS, TIME, TORQUE, VELOCITY,
 };
-use crate::scene::{Drive, RimMotion};
+use crate::scene::{Drive, RimMotion, Slip};
 
 /// What a stage allows its ramps and motions.
 #[derive(Debug, Clone, Copy)]
@@ -45,14 +45,16 @@ const COMPONENTS: [(&str, &Component); 6] = [
 ];
 
 /// Reads `[stage.rim]`. `place` is where each component stands [m or rad], before the call and after it, as far
-/// as it is known: a component that was free or driven by velocity is somewhere.
+/// as it is known: a component that was free or driven by velocity is somewhere. A longitudinal slip comes beside the
+/// motion, since the spin it means is known when the stage starts.
 pub(super) fn rim_motion(
     stage: &Table,
     has_rim: bool,
     limits: Limits,
     place: &mut [Option<f64>; 6],
-) -> Result<RimMotion> {
+) -> Result<(RimMotion, Option<Slip>)> {
     let mut drives = [Drive::Hold; 6];
+    let mut slip = None;
     if let Some(item) = stage.get("rim") {
         if !has_rim {
             return Err(item.error("the scene has no rim", "add a section [rim], or remove this one"));
@@ -61,6 +63,10 @@ pub(super) fn rim_motion(
         table.only(&COMPONENTS.map(|c| c.0), &[])?;
         for (i, (name, component)) in COMPONENTS.iter().enumerate() {
             let Some(item) = table.get(name) else { continue };
+            if *name == "spin" && item.table()?.get("slip").is_some() {
+                (slip, place[i]) = (Some(longitudinal_slip(&item.table()?, limits)?), None);
+                continue;
+            }
             drives[i] = component.read(&item.table()?, limits, place[i])?;
             place[i] = match drives[i] {
                 Drive::Hold => place[i],
@@ -70,7 +76,23 @@ pub(super) fn rim_motion(
         }
     }
     let [x, y, z, steer, camber, spin] = drives;
-    Ok(RimMotion { x, y, z, steer, camber, spin })
+    Ok((RimMotion { x, y, z, steer, camber, spin }, slip))
+}
+
+fn longitudinal_slip(table: &Table, limits: Limits) -> Result<Slip> {
+    table.only(&["slip", "free_radius", "ramp"], &[])?;
+    let item = table.at("slip");
+    if limits.quasi_static {
+        let remedy = "write method = \"explicit\"";
+        return Err(item.error("a rim that keeps turning never settles", remedy));
+    }
+    let radius = table.need("free_radius", "\"measured\"")?;
+    let free_radius = match radius.text() {
+        Ok("measured") => None,
+        _ => Some(radius.quantity(&LENGTH, Bound::Positive)?),
+    };
+    let ramp = ramp(table, limits)?.unwrap_or(0.0);
+    Ok(Slip { kappa: item.number(Bound::Any)?, free_radius, ramp })
 }
 
 impl Component {

@@ -3,7 +3,7 @@
 use crate::error::Result;
 use crate::scene::reader::{Bound, Item, Later, Table};
 use crate::scene::units::{RATE, TIME};
-use crate::scene::{InitialVelocity, Method, Stage};
+use crate::scene::{InitialVelocity, Method, Road, Stage};
 
 use super::implicit;
 use super::rim_motion::{Limits, rim_motion};
@@ -17,13 +17,45 @@ const LATER: [Later; 2] = [
 ];
 
 /// Every stage in order; where the rim has been displaced to is followed across them.
-pub(super) fn stages(item: &Item, has_rim: bool) -> Result<Vec<Stage>> {
+pub(super) fn stages(item: &Item, has_rim: bool, road: Option<&Road>) -> Result<Vec<Stage>> {
     let entries = item.entries()?;
     if entries.is_empty() {
         return Err(item.error("no stage", "add a section [[stage]]"));
     }
     let mut place = [Some(0.0); 6];
-    entries.iter().enumerate().map(|(i, entry)| stage(entry, i, has_rim, &mut place)).collect()
+    let mut stages: Vec<Stage> = Vec::new();
+    for (i, entry) in entries.iter().enumerate() {
+        let stage = stage(entry, i, has_rim, &mut place)?;
+        check_slip(entry, &stage, &stages, road, place[STEER])?;
+        stages.push(stage);
+    }
+    Ok(stages)
+}
+
+/// Index of the steer angle among the rim's components.
+const STEER: usize = 3;
+
+/// A slip needs a speed over the road, and a radius from somewhere.
+fn check_slip(
+    item: &Item,
+    stage: &Stage,
+    before: &[Stage],
+    road: Option<&Road>,
+    steer: Option<f64>,
+) -> Result<()> {
+    let Some(slip) = stage.slip else { return Ok(()) };
+    let table = item.table()?.at("rim").table()?.at("spin").table()?;
+    if stage.heading_speed(road, steer.unwrap_or(0.0)) == 0.0 {
+        let remedy = "write x = { velocity = .. }, or a road that moves, or spin = { velocity = .. }";
+        return Err(table.at("slip").error("the rim does not move along its heading over a road", remedy));
+    }
+    if slip.free_radius.is_none() && !before.iter().any(Stage::rolls_freely) {
+        return Err(table.at("free_radius").error(
+            "no stage before this one spins freely",
+            "write the free-rolling radius, or put a stage with spin = { moment = \"0 N m\", inertia = .. } before",
+        ));
+    }
+    Ok(())
 }
 
 fn stage(item: &Item, index: usize, has_rim: bool, place: &mut [Option<f64>; 6]) -> Result<Stage> {
@@ -33,13 +65,15 @@ fn stage(item: &Item, index: usize, has_rim: bool, place: &mut [Option<f64>; 6])
     let duration = table.quantity("duration", &TIME, Bound::Positive)?;
     let (method, mass_damping) = method(&table)?;
     let limits = Limits { quasi_static: matches!(method, Method::QuasiStatic { .. }), duration };
+    let (rim, slip) = rim_motion(&table, has_rim, limits, place)?;
     Ok(Stage {
         name,
         method,
         duration,
         mass_damping,
         initial_velocity: initial_velocity(&table, has_rim)?,
-        rim: rim_motion(&table, has_rim, limits, place)?,
+        rim,
+        slip,
     })
 }
 

@@ -1,0 +1,107 @@
+//! What one step of an element costs: floating-point operations, by running the routines on a counting scalar, and
+//! bytes, from the arrays that each pass of the CPU engine goes through.
+
+use serde::{Deserialize, Serialize};
+
+use super::counting::{Counted, Operations, count};
+use crate::model::Model;
+use crate::physics::element::{Class, Corners, Formulation, Full, Q1p0, UniformGradient};
+use crate::physics::material::{
+    Inviscid, KelvinVoigt, Law, MooneyRivlin, MooneyRivlinEq4, NeoHookean, Viscosity,
+};
+use crate::physics::node::{Loads, Prediction, StepSize};
+use crate::physics::scalar::{Real, Scalar};
+use crate::physics::tensor::{add, axpy};
+use crate::scene;
+
+/// A pass over the mesh: what it must read, write and compute in one step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Pass {
+    pub name: String,
+    /// Bytes read and written, every array once.
+    pub bytes: f64,
+    pub flops: f64,
+}
+
+/// Operations of the force routine of one element of the model's own formulation, law and viscosity, in precision `T`.
+pub fn element_operations<T: Real>(model: &Model) -> Operations {
+    fn of<T: Real, F: Formulation, L: Law<Counted<T>>>(model: &Model) -> Operations {
+        let class: Class<Counted<T>> = model.classes[0].cast();
+        let x = corners::<T>(&model.mesh.nodes, &model.mesh.hexes[0]);
+        let law = L::new(&model.law);
+        fn force<T: Real, F: Formulation, L: Law<Counted<T>>, V: Viscosity<Counted<T>>>(
+            law: &L,
+            eta: f64,
+            class: &Class<Counted<T>>,
+            x: &Corners<Counted<T>>,
+        ) -> Operations {
+            let viscosity = V::new(eta);
+            count(|| F::force(law, &viscosity, class, x, x)).1
+        }
+        match model.viscosity {
+            None => force::<T, F, L, Inviscid>(&law, 0.0, &class, &x),
+            Some(eta) => force::<T, F, L, KelvinVoigt<Counted<T>>>(&law, eta, &class, &x),
+        }
+    }
+    fn with_law<T: Real, F: Formulation>(model: &Model) -> Operations {
+        match model.law {
+            scene::Law::NeoHookean { .. } => of::<T, F, NeoHookean<Counted<T>>>(model),
+            scene::Law::MooneyRivlin { .. } => of::<T, F, MooneyRivlin<Counted<T>>>(model),
+            scene::Law::MooneyRivlinEq4 { .. } => of::<T, F, MooneyRivlinEq4<Counted<T>>>(model),
+        }
+    }
+    match model.element {
+        scene::Element::Q1p0 => with_law::<T, Q1p0>(model),
+        scene::Element::Full => with_law::<T, Full>(model),
+        scene::Element::UniformGradient { .. } => with_law::<T, UniformGradient>(model),
+    }
+}
+
+fn corners<T: Real>(nodes: &[[f64; 3]], hex: &[u32; 8]) -> Corners<Counted<T>> {
+    hex.map(|n| nodes[n as usize].map(Counted::from_f64))
+}
+
+/// Operations of one node without contact: the sum over its `corners` slots, the new velocity and the new position.
+/// Works and impulses are left out: they are our book-keeping, not the scheme.
+pub fn node_operations<T: Real>(corners: usize) -> Operations {
+    let number = Counted::<T>::from_f64;
+    let three = [number(0.5); 3];
+    let step = StepSize { dt: number(0.1), dtm: number(0.1) };
+    let prediction = Prediction::new(&Loads { gravity: three, alpha: number(0.0) }, step);
+    let work = || {
+        let force = (0..corners).fold(three, |sum, _| add(sum, three));
+        let v = prediction.velocity(number(1.0), force, three);
+        axpy(v, step.dt, three)
+    };
+    count(work).1
+}
+
+/// Operations of a step of the whole model, the element pass and the node pass.
+fn step_operations<T: Real>(model: &Model) -> [f64; 2] {
+    let element = element_operations::<T>(model).flops() as f64;
+    // Corners are shared out among the nodes: one sum a corner, wherever it goes.
+    let (bare, one) = (node_operations::<T>(0).flops() as f64, node_operations::<T>(1).flops() as f64);
+    let (elements, nodes) = (model.element_count() as f64, model.node_count() as f64);
+    [element * elements, bare * nodes + (one - bare) * 8.0 * elements]
+}
+
+/// The passes of a step of the CPU engine in precision `T`: the element pass reads positions (and, with viscosity,
+/// velocities) and fills the corner slots; the node pass reads slots, positions, velocities, mass and inverse mass,
+/// and writes positions and velocities.
+pub fn cpu_passes<T: Real>(model: &Model) -> Vec<Pass> {
+    let size = size_of::<T>() as f64;
+    let (elements, nodes) = (model.element_count() as f64, model.node_count() as f64);
+    let [element_flops, node_flops] = step_operations::<T>(model);
+    let slots = 24.0 * size * elements;
+    let vector = 3.0 * size * nodes;
+    let read = if model.viscosity.is_some() { 2.0 * vector } else { vector };
+    vec![
+        Pass { name: "element".into(), bytes: read + slots, flops: element_flops },
+        Pass { name: "node".into(), bytes: slots + 4.0 * vector + 2.0 * size * nodes, flops: node_flops },
+    ]
+}
+
+/// Size of the arrays that a step of the CPU engine goes through [bytes]: corner slots, positions, velocities, masses.
+pub fn cpu_arrays<T: Real>(model: &Model) -> f64 {
+    size_of::<T>() as f64 * (24.0 * model.element_count() as f64 + 8.0 * model.node_count() as f64)
+}

@@ -1,0 +1,193 @@
+//! Many runs for one command: each in its own folder, kept when they have finished, one after the other or side by side.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use super::choose::{self, EngineArgs, EngineChoice, Precision};
+use super::format::{count, duration};
+use super::progress::Display;
+use super::recorder;
+use super::run::simulate;
+use crate::gpu::adapters;
+use crate::output::read;
+use crate::output::summary::Summary;
+use crate::scene::Scene;
+use crate::study::axis::Changes;
+use crate::{Error, Result};
+
+/// A run to be made, or found.
+pub struct Case {
+    /// What is printed of it.
+    pub name: String,
+    pub scene: Scene,
+    pub text: String,
+    pub engine: EngineArgs,
+    pub out: PathBuf,
+}
+
+impl Case {
+    /// The scene of `file` with `sets` and then `changes`; no pictures, and fields at the ends of stages only, unless
+    /// `sets` says otherwise.
+    ///
+    /// # Errors
+    /// As [`Scene::load`]; [`Error::Scene`] for a precision that there is not.
+    pub fn new(
+        name: String,
+        file: &Path,
+        sets: &[String],
+        changes: &[Changes],
+        engine: &EngineArgs,
+        out: PathBuf,
+    ) -> Result<Case> {
+        let text = std::fs::read_to_string(file).map_err(Error::io(file, "read the scene"))?;
+        let file = file.to_string_lossy();
+        let mut all: Vec<String> = vec!["output.pictures=[]".into(), "output.snapshots=stage-ends".into()];
+        all.extend(sets.iter().cloned());
+        all.extend(changes.iter().flat_map(|c| c.sets.iter().cloned()));
+        let mut engine = engine.clone();
+        for precision in changes.iter().filter_map(|c| c.precision.as_deref()) {
+            let precision = precision_named(precision, &file)?;
+            // An engine that was settled without knowing better.
+            if precision == Precision::F32Plus && engine.engine == EngineChoice::Cpu {
+                engine.engine = EngineChoice::Gpu;
+            }
+            engine.precision = Some(precision);
+        }
+        let scene = Scene::parse(&text, &file, &all)?;
+        Ok(Case { name, scene, text: Scene::effective_text(&text, &file, &all)?, engine, out })
+    }
+
+    /// The run's summary, if the folder holds this very run, finished.
+    fn finished(&self) -> Option<Summary> {
+        let summary = read::summary(&self.out).ok()??;
+        let asked = |p: Precision| p.name() == summary.precision;
+        let same = summary.finished
+            && summary.scene_hash == self.scene.hash
+            && summary.versions.hexroll == env!("CARGO_PKG_VERSION")
+            && self.engine.precision.is_none_or(asked)
+            && match self.engine.engine {
+                EngineChoice::Auto => true,
+                EngineChoice::Cpu => summary.engine == "cpu",
+                EngineChoice::Gpu => summary.engine == "gpu",
+            };
+        same.then_some(summary)
+    }
+}
+
+fn precision_named(name: &str, file: &str) -> Result<Precision> {
+    [Precision::F64, Precision::F32, Precision::F32Plus].into_iter().find(|p| p.name() == name).ok_or_else(
+        || Error::Scene {
+            file: file.into(),
+            line: None,
+            key: format!("--over precision={name}"),
+            problem: "no such precision".into(),
+            remedy: "write f64, f32 or f32+".into(),
+        },
+    )
+}
+
+/// The engine of every run of a command: runs that are compared are not raced for. A real GPU if there is one, else the
+/// CPU; f32+, which only the GPU has, leaves the choice to each run.
+pub fn settled(engine: &EngineArgs) -> EngineArgs {
+    let real = || choose::usable(&adapters(), engine.adapter.as_deref()).is_some_and(|a| !a.software);
+    let choice = match engine.engine {
+        EngineChoice::Auto if engine.precision == Some(Precision::F64) => EngineChoice::Cpu,
+        EngineChoice::Auto if engine.precision.is_none() && engine.adapter.is_none() && !real() => {
+            EngineChoice::Cpu
+        }
+        choice => choice,
+    };
+    EngineArgs { engine: choice, ..engine.clone() }
+}
+
+/// How many runs go side by side: what was asked for, else one a core on the CPU and one on a GPU.
+pub fn side_by_side(asked: usize, engine: &EngineArgs) -> usize {
+    match (asked, engine.engine) {
+        (0, EngineChoice::Cpu) => cores(),
+        (0, _) => 1,
+        (n, _) => n,
+    }
+}
+
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// Makes every run that is not there yet, `jobs` at a time, and returns all summaries in the order of the cases.
+/// A run that fails does not keep the others from running.
+///
+/// # Errors
+/// The first failure, after everything else has run; [`Error::Interrupted`] at once.
+pub fn run_all(cases: &[Case], jobs: usize) -> Result<Vec<Summary>> {
+    let jobs = jobs.clamp(1, cases.len().max(1));
+    let next = AtomicUsize::new(0);
+    let results: Vec<Mutex<Option<Result<Summary>>>> = cases.iter().map(|_| Mutex::new(None)).collect();
+    let worker = || {
+        loop {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            let Some(case) = cases.get(i) else { return };
+            if recorder::interrupted() {
+                return;
+            }
+            let result = one(case, [i + 1, cases.len()], jobs);
+            *held(&results[i]) = Some(result);
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 1..jobs {
+            scope.spawn(worker);
+        }
+        worker();
+    });
+    let mut summaries = Vec::new();
+    let mut failure = None;
+    for (case, result) in cases.iter().zip(results) {
+        match result.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            Some(Ok(summary)) => summaries.push(summary),
+            Some(Err(error)) => failure = failure.or(Some(error)),
+            None => failure = failure.or(Some(Error::Interrupted { time: 0.0, out: case.out.clone() })),
+        }
+    }
+    failure.map_or(Ok(summaries), Err)
+}
+
+fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Makes or finds one run, with a line before and a line after it.
+fn one(case: &Case, [number, of]: [usize; 2], jobs: usize) -> Result<Summary> {
+    let place = format!("[{number}/{of}] {}", case.name);
+    if let Some(summary) = case.finished() {
+        eprintln!("{place}: kept, {}", line(&summary));
+        return Ok(summary);
+    }
+    let mut engine = case.engine.clone();
+    if jobs > 1 {
+        // Side by side each run has a core or its share of them.
+        engine.threads = if engine.threads == 0 { (cores() / jobs).max(1) } else { engine.threads };
+    }
+    eprintln!("{place}: runs in {}", case.out.display());
+    let done = simulate(&case.scene, &case.text, &engine, &case.out, |elements, _, _| {
+        Display::quiet(elements, &place)
+    })?;
+    match done.error {
+        Some(error) => {
+            eprintln!("{place}: failed: {error}");
+            Err(error)
+        }
+        None => {
+            eprintln!("{place}: done, {}", line(&done.summary));
+            Ok(done.summary)
+        }
+    }
+}
+
+/// What a finished run comes to, in a line.
+fn line(s: &Summary) -> String {
+    let forces = s.stages.last().map_or(String::new(), |m| {
+        format!(": road {:.2} {:.2} {:.2} N", m.mean_road_fx_N, m.mean_road_fy_N, m.mean_road_fz_N)
+    });
+    format!("{} steps in {}{forces}", count(s.steps), duration(s.wall_time_s))
+}

@@ -1,0 +1,426 @@
+//! How nodes and elements lie in memory: node lines and element rows that load as whole vectors, whatever numbering
+//! the mesh came with, and groups of rows that one thread takes.
+//!
+//! A row is a chain of elements along xi; its corners lie on four node lines. Lane l of a batch reads entry i + l of a
+//! line for the corners xi = -1 and entry i + l + 1 for those xi = +1: no indices. A closed line (around a ring) keeps
+//! a copy of its first node behind its last one. Elements in no such chain are taken lane by lane ([`Loose`]).
+//!
+//! Forces are summed line by line into *slots*: one copy of the line for every group of rows that touches it, in
+//! which the group's rows are added in order. A node's force is the sum of its slots, first to last: the same bits
+//! however the groups are shared out among threads.
+
+use super::chains::{BACK, Chain, FRONT, chains};
+use crate::model::Model;
+use crate::physics::lanes::WIDEST;
+use std::ops::Range;
+
+/// Most groups, and fewest elements of one.
+const MOST_GROUPS: usize = 256;
+const LEAST_ELEMENTS: usize = 40;
+/// Nodes of a line of nodes in no row, in batches: the size of a typical line.
+const LOOSE_BATCHES: usize = 8;
+
+/// A chain of elements on four node lines.
+#[derive(Debug, Clone)]
+pub struct Row {
+    pub elements: Vec<u32>,
+    pub closed: bool,
+    /// Lines of the corners 0-1, 3-2, 4-5, 7-6: where they start among the nodes, and among the forces.
+    pub x: [usize; 4],
+    pub f: [usize; 4],
+    /// Whether the slot holds forces of an earlier row already.
+    pub add: [bool; 4],
+    /// Entry of the table of shapes, by batch.
+    pub shapes: Vec<u32>,
+    lines: [usize; 4],
+}
+
+/// At most as many elements as there are lanes, with nothing in common.
+#[derive(Debug, Clone)]
+pub struct Loose {
+    pub elements: Vec<u32>,
+    /// Places of the corners among the nodes and the forces, by corner and lane; lanes beyond the last element repeat it.
+    pub nodes: [[u32; WIDEST]; 8],
+    pub f: [[u32; WIDEST]; 8],
+    pub shape: u32,
+}
+
+/// What the element pass takes at a time.
+#[derive(Debug, Clone)]
+pub enum Item {
+    Row(Row),
+    Loose(Box<Loose>),
+}
+
+impl Item {
+    pub fn elements(&self) -> &[u32] {
+        match self {
+            Item::Row(row) => &row.elements,
+            Item::Loose(loose) => &loose.elements,
+        }
+    }
+
+    /// Entries of the table of shapes, by batch.
+    pub fn shapes(&self) -> &[u32] {
+        match self {
+            Item::Row(row) => &row.shapes,
+            Item::Loose(loose) => std::slice::from_ref(&loose.shape),
+        }
+    }
+}
+
+/// What the lanes of a batch of nodes are, by bits.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct NodeBatch {
+    pub rim: u32,
+    /// Nodes that can touch the road.
+    pub surface: u32,
+    /// Held components: lanes by component.
+    pub held: [u32; 3],
+}
+
+/// Consecutive nodes.
+#[derive(Debug, Clone)]
+pub struct Line {
+    pub start: usize,
+    pub nodes: Vec<u32>,
+    pub closed: bool,
+    pub batches: Vec<NodeBatch>,
+    /// Its copies among the forces, by ascending group.
+    pub slots: Vec<usize>,
+    /// Forces come lane by lane: the slots must be zero before a step.
+    pub loose: bool,
+    pub has_rim: bool,
+    /// Its number among the lines that can touch the road.
+    pub surface: Option<usize>,
+    /// First and last item that touches it.
+    pub items: (usize, usize),
+}
+
+/// The whole arrangement for lanes of one width.
+#[derive(Debug, Clone)]
+pub struct Layout {
+    /// Place of every node.
+    pub place: Vec<u32>,
+    /// Lengths of arrays by place, and of the force arrays.
+    pub places: usize,
+    pub slots: usize,
+    pub items: Vec<Item>,
+    pub lines: Vec<Line>,
+    /// Items by group.
+    pub groups: Vec<Range<usize>>,
+    /// The table of shapes: the class of every lane. The first entries are the model's classes, the same in all lanes.
+    pub shapes: Vec<[u32; WIDEST]>,
+    pub surface_lines: usize,
+}
+
+/// Position of a node: its line and place in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct At {
+    line: u32,
+    index: u32,
+}
+const NOWHERE: At = At { line: u32::MAX, index: 0 };
+
+impl Layout {
+    /// Arranges a model for lanes of `width`; `road`: surface nodes can touch.
+    pub fn new(model: &Model, road: bool, width: usize) -> Layout {
+        let mut builder = Builder::new(model, width);
+        for chain in chains(&model.mesh.hexes, model.node_count()) {
+            builder.add(chain);
+        }
+        builder.end_loose();
+        builder.loose_lines();
+        builder.finish(model, road)
+    }
+}
+
+struct Builder<'a> {
+    model: &'a Model,
+    width: usize,
+    items: Vec<Item>,
+    lines: Vec<Line>,
+    at: Vec<At>,
+    /// Elements waiting for a loose batch.
+    waiting: Vec<u32>,
+    shapes: Vec<[u32; WIDEST]>,
+}
+
+impl<'a> Builder<'a> {
+    fn new(model: &'a Model, width: usize) -> Self {
+        let at = vec![NOWHERE; model.node_count()];
+        let shapes = (0..model.classes.len() as u32).map(|class| [class; WIDEST]).collect();
+        Builder { model, width, items: Vec::new(), lines: Vec::new(), at, waiting: Vec::new(), shapes }
+    }
+
+    fn hex(&self, e: u32) -> &'a [u32; 8] {
+        &self.model.mesh.hexes[e as usize]
+    }
+
+    /// Makes a row of a chain if its nodes lie, or can be laid, on lines; else its elements are loose.
+    fn add(&mut self, mut chain: Chain) {
+        if 2 * chain.elements.len() >= self.width {
+            self.rotate(&mut chain);
+            if let Some(lines) = self.lines_of(&chain) {
+                self.end_loose();
+                let batches = chain.elements.chunks(self.width).map(<[u32]>::to_vec).collect::<Vec<_>>();
+                let shapes = batches.iter().map(|b| self.shape_of(b)).collect();
+                let Chain { elements, closed } = chain;
+                let (x, f, add) = ([0; 4], [0; 4], [false; 4]);
+                self.items.push(Item::Row(Row { elements, closed, x, f, add, shapes, lines }));
+                return;
+            }
+        }
+        for e in chain.elements {
+            self.waiting.push(e);
+            if self.waiting.len() == self.width {
+                self.end_loose();
+            }
+        }
+    }
+
+    /// Starts a closed chain where a line that it meets starts.
+    fn rotate(&self, chain: &mut Chain) {
+        if !chain.closed {
+            return;
+        }
+        for corner in BACK {
+            let at = |e: &u32| self.at[self.hex(*e)[corner] as usize];
+            if let Some(first) = chain.elements.iter().position(|e| at(e) != NOWHERE && at(e).index == 0) {
+                chain.elements.rotate_left(first);
+                return;
+            }
+        }
+    }
+
+    fn lines_of(&mut self, chain: &Chain) -> Option<[usize; 4]> {
+        let mut lines = [0; 4];
+        for k in 0..4 {
+            let mut nodes: Vec<u32> = chain.elements.iter().map(|e| self.hex(*e)[BACK[k]]).collect();
+            if !chain.closed {
+                nodes.push(self.hex(*chain.elements.last()?)[FRONT[k]]);
+            }
+            lines[k] = self.line_of(nodes, chain.closed)?;
+        }
+        Some(lines)
+    }
+
+    /// The line with exactly these nodes: an old one, or a new one if none of them is on a line.
+    fn line_of(&mut self, nodes: Vec<u32>, closed: bool) -> Option<usize> {
+        let first = self.at[nodes[0] as usize];
+        if first == NOWHERE {
+            let fresh = nodes.iter().all(|n| self.at[*n as usize] == NOWHERE);
+            return fresh.then(|| self.new_line(nodes, closed));
+        }
+        let line = first.line as usize;
+        (self.lines[line].closed == closed && self.lines[line].nodes == nodes).then_some(line)
+    }
+
+    fn new_line(&mut self, nodes: Vec<u32>, closed: bool) -> usize {
+        let line = self.lines.len();
+        for (index, &n) in nodes.iter().enumerate() {
+            self.at[n as usize] = At { line: line as u32, index: index as u32 };
+        }
+        self.lines.push(Line {
+            start: 0,
+            batches: vec![NodeBatch::default(); nodes.len().div_ceil(self.width)],
+            nodes,
+            closed,
+            slots: Vec::new(),
+            loose: false,
+            has_rim: false,
+            surface: None,
+            items: (usize::MAX, 0),
+        });
+        line
+    }
+
+    fn shape_of(&mut self, batch: &[u32]) -> u32 {
+        let class = |e: u32| self.model.class_of[e as usize];
+        if batch.iter().all(|e| class(*e) == class(batch[0])) {
+            return class(batch[0]);
+        }
+        self.shapes.push(std::array::from_fn(|lane| class(batch[lane.min(batch.len() - 1)])));
+        self.shapes.len() as u32 - 1
+    }
+
+    fn end_loose(&mut self) {
+        if self.waiting.is_empty() {
+            return;
+        }
+        let elements = std::mem::take(&mut self.waiting);
+        let shape = self.shape_of(&elements);
+        let none = [[0; WIDEST]; 8];
+        self.items.push(Item::Loose(Box::new(Loose { elements, nodes: none, f: none, shape })));
+    }
+
+    /// Lines for the nodes that are on none, in the order in which elements meet them.
+    fn loose_lines(&mut self) {
+        let model = self.model;
+        let of_items = self.items.iter().flat_map(Item::elements).flat_map(|e| model.mesh.hexes[*e as usize]);
+        // Nodes of no element are nodes all the same.
+        let mut met = vec![false; self.at.len()];
+        let mut left = Vec::new();
+        for n in of_items.chain(0..self.at.len() as u32) {
+            if self.at[n as usize] == NOWHERE && !std::mem::replace(&mut met[n as usize], true) {
+                left.push(n);
+            }
+        }
+        for nodes in left.chunks(LOOSE_BATCHES * self.width) {
+            self.new_line(nodes.to_vec(), false);
+        }
+    }
+
+    /// Lines that an item touches.
+    fn touched(&self, item: &Item) -> Vec<usize> {
+        match item {
+            Item::Row(row) => row.lines.to_vec(),
+            Item::Loose(loose) => {
+                let nodes = loose.elements.iter().flat_map(|e| self.hex(*e));
+                nodes.map(|n| self.at[*n as usize].line as usize).collect()
+            }
+        }
+    }
+
+    fn finish(mut self, model: &Model, road: bool) -> Layout {
+        let touched: Vec<Vec<usize>> = self.items.iter().map(|i| self.touched(i)).collect();
+        for (i, (lines, item)) in touched.iter().zip(&self.items).enumerate() {
+            for &l in lines {
+                let line = &mut self.lines[l];
+                line.items = (line.items.0.min(i), line.items.1.max(i));
+                line.loose |= matches!(item, Item::Loose(_));
+            }
+        }
+        let groups = self.groups();
+        let places = self.lay_nodes();
+        let slots = self.lay_forces(&groups, &touched);
+        let surface_lines = self.roles(model, road);
+        let place = |at: &At| (self.lines[at.line as usize].start + at.index as usize) as u32;
+        let place = self.at.iter().map(place).collect();
+        let Builder { items, lines, shapes, .. } = self;
+        Layout { place, places, slots, items, lines, groups, shapes, surface_lines }
+    }
+
+    /// Cuts the items so that a line meets few groups.
+    fn groups(&self) -> Vec<Range<usize>> {
+        let met = self.lines.iter().filter(|l| l.items.0 != usize::MAX);
+        let widest = met.map(|l| l.items.1 - l.items.0).max().unwrap_or(0);
+        let stride = widest.saturating_sub(1).max(1);
+        let all = self.model.element_count();
+        let least = LEAST_ELEMENTS.max(all.div_ceil(MOST_GROUPS));
+        let mut groups = Vec::new();
+        let (mut start, mut elements) = (0, 0);
+        for i in 0..self.items.len() {
+            elements += self.items[i].elements().len();
+            let whole = (i + 1 - start).is_multiple_of(stride);
+            if whole && elements >= least {
+                groups.push(start..i + 1);
+                (start, elements) = (i + 1, 0);
+            }
+        }
+        match groups.last_mut() {
+            Some(last) if elements < least => last.end = self.items.len(),
+            _ => groups.push(start..self.items.len()),
+        }
+        groups
+    }
+
+    /// Vectors of a line: one more than it fills, so that a load from the second node on stays inside.
+    fn vectors(&self, line: &Line) -> usize {
+        (line.nodes.len().div_ceil(self.width) + 1) * self.width
+    }
+
+    fn lay_nodes(&mut self) -> usize {
+        let mut next = 0;
+        for l in 0..self.lines.len() {
+            self.lines[l].start = next;
+            next += self.vectors(&self.lines[l]);
+        }
+        next
+    }
+
+    /// Slots of every line, and where each item puts its forces.
+    fn lay_forces(&mut self, groups: &[Range<usize>], touched: &[Vec<usize>]) -> usize {
+        let mut group_of = vec![0; self.items.len()];
+        for (g, range) in groups.iter().enumerate() {
+            group_of[range.clone()].fill(g);
+        }
+        let mut met: Vec<Vec<usize>> = vec![Vec::new(); self.lines.len()];
+        for (i, lines) in touched.iter().enumerate() {
+            for &l in lines {
+                if met[l].last() != Some(&group_of[i]) {
+                    met[l].push(group_of[i]);
+                }
+            }
+        }
+        let mut next = 0;
+        for l in 0..self.lines.len() {
+            for _ in 0..met[l].len().max(1) {
+                self.lines[l].slots.push(next);
+                next += self.vectors(&self.lines[l]);
+            }
+            // A node of no element: nobody writes its slot.
+            self.lines[l].loose |= met[l].is_empty();
+        }
+        let mut filled = vec![false; next];
+        for i in 0..self.items.len() {
+            let slot = |l: usize| {
+                let k = met[l].iter().position(|g| *g == group_of[i]).expect("the item meets the line");
+                self.lines[l].slots[k]
+            };
+            match &mut self.items[i] {
+                Item::Row(row) => {
+                    row.x = row.lines.map(|l| self.lines[l].start);
+                    row.f = row.lines.map(slot);
+                    for k in 0..4 {
+                        let before = std::mem::replace(&mut filled[row.f[k]], true);
+                        row.add[k] = before || self.lines[row.lines[k]].loose;
+                    }
+                }
+                Item::Loose(loose) => {
+                    for lane in 0..WIDEST {
+                        let e = loose.elements[lane.min(loose.elements.len() - 1)];
+                        for c in 0..8 {
+                            let at = self.at[self.model.mesh.hexes[e as usize][c] as usize];
+                            let (line, index) = (at.line as usize, at.index);
+                            loose.nodes[c][lane] = self.lines[line].start as u32 + index;
+                            loose.f[c][lane] = slot(line) as u32 + index;
+                        }
+                    }
+                }
+            }
+        }
+        next
+    }
+
+    /// Marks rim and surface nodes; returns the number of lines that can touch.
+    fn roles(&mut self, model: &Model, road: bool) -> usize {
+        let mut mark = |nodes: &[u32], bit: fn(&mut NodeBatch) -> &mut u32| {
+            for &n in nodes {
+                let At { line, index } = self.at[n as usize];
+                let (batch, lane) = (index as usize / self.width, index as usize % self.width);
+                *bit(&mut self.lines[line as usize].batches[batch]) |= 1 << lane;
+            }
+        };
+        mark(&model.mesh.rim, |b| &mut b.rim);
+        if road {
+            mark(&model.mesh.surface, |b| &mut b.surface);
+        }
+        let held = |d: usize| {
+            let bits = model.mesh.held.iter().enumerate();
+            bits.filter(move |(_, bits)| *bits >> d & 1 == 1).map(|(n, _)| n as u32).collect::<Vec<u32>>()
+        };
+        mark(&held(0), |b| &mut b.held[0]);
+        mark(&held(1), |b| &mut b.held[1]);
+        mark(&held(2), |b| &mut b.held[2]);
+        let mut surface_lines = 0;
+        for line in &mut self.lines {
+            line.has_rim = line.batches.iter().any(|b| b.rim != 0);
+            if line.batches.iter().any(|b| b.surface != 0) {
+                line.surface = Some(surface_lines);
+                surface_lines += 1;
+            }
+        }
+        surface_lines
+    }
+}

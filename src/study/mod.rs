@@ -1,0 +1,8 @@
+//! Several runs of a scene and what they say together: axes of variation, mesh convergence, tables and plots of them.
+//! Nothing here runs anything.
+
+pub mod axis;
+pub mod convergence;
+pub mod quantity;
+pub mod report;
+pub mod sweep;

@@ -1,0 +1,176 @@
+//! Elements in rows, loose elements and threads give the forces of elements taken one by one.
+//!
+//! The CPU engine arranges any mesh in rows of neighbours that load as vectors, and takes what fits into no row lane by
+//! lane (src/cpu/layout.rs). Requirement: whatever the numbering of elements and nodes, the shapes of the elements and
+//! the number of threads, the forces are those of a plain loop over the elements, and the motion does not depend on
+//! the numbering.
+
+mod common;
+
+use common::{Driver, Random, block, distort, explicit, press, wheel};
+use hexroll::cpu::{Precision, element_forces, engine, engine_at};
+use hexroll::model::Model;
+use hexroll::model::mesh::Mesh;
+use hexroll::physics::lanes::Level;
+use hexroll::scene::{Drive, Scene};
+
+/// Elements and nodes in random order.
+fn shuffled(mesh: &Mesh, random: &mut Random) -> Mesh {
+    let mut order = |count: usize| {
+        let mut keyed: Vec<(f64, u32)> = (0..count as u32).map(|i| (random.signed(), i)).collect();
+        keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
+        keyed.into_iter().map(|k| k.1).collect::<Vec<u32>>()
+    };
+    let (nodes, hexes) = (order(mesh.nodes.len()), order(mesh.hexes.len()));
+    let mut new = vec![0; nodes.len()];
+    for (to, &from) in nodes.iter().enumerate() {
+        new[from as usize] = to as u32;
+    }
+    let renamed = |n: &u32| new[*n as usize];
+    let sorted = |set: &[u32]| {
+        let mut set: Vec<u32> = set.iter().map(renamed).collect();
+        set.sort_unstable();
+        set
+    };
+    Mesh {
+        nodes: nodes.iter().map(|n| mesh.nodes[*n as usize]).collect(),
+        hexes: hexes.iter().map(|e| mesh.hexes[*e as usize].each_ref().map(renamed)).collect(),
+        facets: mesh.facets.iter().map(|f| f.each_ref().map(renamed)).collect(),
+        rim: sorted(&mesh.rim),
+        held: vec![],
+        axle: mesh.axle,
+        surface: sorted(&mesh.surface),
+    }
+}
+
+fn model(scene: &Scene, change: impl FnOnce(&mut Mesh)) -> Model {
+    let mut mesh = Model::new(scene).unwrap().mesh;
+    change(&mut mesh);
+    Model::from_mesh(mesh, &scene.body).expect("no element is inside out")
+}
+
+/// Element by element, corner by corner.
+fn plain(model: &Model, x: &[[f64; 3]], v: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let mut f = vec![[0.0; 3]; x.len()];
+    for (hex, &class) in model.mesh.hexes.iter().zip(&model.class_of) {
+        let at = |field: &[[f64; 3]]| hex.map(|n| field[n as usize]);
+        for (n, g) in hex.iter().zip(element_forces(model, class as usize, &at(x), &at(v))) {
+            for d in 0..3 {
+                f[*n as usize][d] += g[d];
+            }
+        }
+    }
+    f
+}
+
+fn relative(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    let square = |a: f64| a * a;
+    let difference: f64 = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| square(a - b)).sum();
+    (difference / b.iter().flatten().map(|b| square(*b)).sum::<f64>()).sqrt()
+}
+
+#[test]
+fn forces_are_those_of_elements_one_by_one() {
+    let mut random = Random::new(7);
+    let (ring, long, cube) =
+        (wheel([44, 2, 3], 0.5), block([0.1, 0.02, 0.02], [21, 3, 3]), block([0.02, 0.02, 0.02], [3, 3, 3]));
+    let cases: Vec<(&str, &Scene, Model)> = vec![
+        ("closed rows", &ring, model(&ring, |_| {})),
+        ("open rows", &long, model(&long, |_| {})),
+        ("open rows of whole vectors", &long, {
+            let mut scene = long.clone();
+            scene.body.mesh = block([0.1, 0.02, 0.02], [32, 3, 3]).body.mesh;
+            model(&scene, |_| {})
+        }),
+        ("loose elements", &cube, model(&cube, |_| {})),
+        ("a shape an element", &long, model(&long, |mesh| distort(mesh, 0.1 / 21.0, 0.1))),
+        ("loose and distorted", &cube, model(&cube, |mesh| distort(mesh, 0.02 / 3.0, 0.1))),
+        ("a shuffled ring", &ring, model(&ring, |mesh| *mesh = shuffled(mesh, &mut random))),
+        (
+            "rows beside loose elements",
+            &long,
+            model(&long, |mesh| {
+                // Without every fifth element rows are of four: loose where there are more lanes than eight.
+                let mut e = 0;
+                mesh.hexes.retain(|_| {
+                    e += 1;
+                    e % 5 != 0 || e > 60
+                });
+            }),
+        ),
+    ];
+    for (name, scene, model) in cases {
+        let size = model.mesh.nodes.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
+        let x: Vec<[f64; 3]> = model
+            .mesh
+            .nodes
+            .iter()
+            .map(|x| [0, 1, 2].map(|d| x[d] + 0.01 * size * (3.0 * x[(d + 1) % 3] / size).sin()))
+            .collect();
+        let v: Vec<[f64; 3]> = x.iter().map(|x| [0, 1, 2].map(|d| (5.0 * x[d] / size).cos())).collect();
+        let expected = plain(&model, &x, &v);
+        for level in
+            [Level::Portable, Level::Avx2, Level::Avx512].into_iter().filter(|l| *l <= Level::detect())
+        {
+            for (precision, threads, tolerance) in [
+                // Rounding of stresses that nearly cancel: 1e-16 (6e-8) times kappa/G and the digits lost in sums.
+                (Precision::F64, 1, 1e-12),
+                (Precision::F64, 3, 1e-12),
+                (Precision::F32, 2, 1e-3),
+            ] {
+                let forces = engine_at(&model, scene, precision, threads, level).force(&x, &v).unwrap();
+                let error = relative(&forces, &expected);
+                assert!(error < tolerance, "{name}, {level:?}, {precision:?} x{threads}: {error:e}");
+            }
+        }
+    }
+}
+
+/// 200 steps of a wheel pressed and rolled: positions of a shuffled mesh are those of the mesh as it came, but for the
+/// order of sums. An elastic body in frictional contact amplifies rounding: 1e-16 grows to 1e-12 over these steps.
+#[test]
+fn the_motion_does_not_depend_on_the_numbering() {
+    let mut scene = wheel([44, 2, 3], 0.5);
+    scene.body.viscosity = Some(20.0);
+    scene.stages = vec![press(Drive::Displacement { to: -2e-3, ramp: 1e-3 }), explicit("roll", 0.01)];
+    let whole = model(&scene, |_| {});
+    let other = model(&scene, |mesh| *mesh = shuffled(mesh, &mut Random::new(3)));
+    let moved = |model: &Model| {
+        let mut driver = Driver::new(model, &scene);
+        driver.advance(std::iter::repeat_n(1e-5, 200)).expect("the steps are stable");
+        let window = driver.sample(1e-5);
+        assert!(window.step_contact.iter().any(|s| s.touching > 0), "it touches");
+        // By reference position, which shuffling keeps to the last bit.
+        let mut x: Vec<_> = std::iter::zip(&model.mesh.nodes, driver.engine.state().unwrap().x).collect();
+        x.sort_by(|a, b| a.0.partial_cmp(b.0).unwrap());
+        x.into_iter().map(|x| x.1).collect::<Vec<_>>()
+    };
+    let error = relative(&moved(&other), &moved(&whole));
+    assert!(error < 1e-10, "{error:e}");
+}
+
+/// What a window says of its steps is what it says of its nodes.
+#[test]
+fn contact_of_every_step_adds_up_to_the_windows() {
+    let scene = wheel([44, 2, 3], 0.5);
+    let model = Model::new(&scene).unwrap();
+    for threads in [1, 2] {
+        let mut driver = Driver::new(&model, &scene);
+        driver.engine = engine(&model, &scene, Precision::F64, threads);
+        driver.advance(std::iter::repeat_n(1e-5, 150)).unwrap();
+        let window = driver.sample(1e-5);
+        assert_eq!(window.step_contact.len(), 150);
+        let touching: u32 = window.step_contact.iter().map(|s| s.touching).sum();
+        assert!(touching > 0);
+        assert_eq!(touching, window.surface.iter().map(|s| s.touching).sum::<u32>());
+        for d in 0..3 {
+            let impulse: f64 = window.step_contact.iter().map(|s| s.force[d] * s.dtm).sum();
+            let nodes: f64 = window.surface.iter().map(|s| s.impulse[d]).sum();
+            assert!((impulse - nodes).abs() <= 1e-12 * nodes.abs().max(1e-9), "{d}: {impulse} {nodes}");
+        }
+        // Every node was free at first: it changed at least once if it touched, and at most once a step.
+        let changes: u32 = window.step_contact.iter().map(|s| s.changes).sum();
+        let touched = window.surface.iter().filter(|s| s.touching > 0).count() as u32;
+        assert!(changes >= touched && changes <= 2 * touching, "{changes} {touched} {touching}");
+    }
+}
