@@ -10,7 +10,7 @@ SCENE ?= scenes/lat100_straight.toml
 ARGS ?=
 OUT ?= runs/$(basename $(notdir $(SCENE)))
 
-.PHONY: help setup tools build run test verify lint clean-runs
+.PHONY: help setup tools build run test verify report mutants lint clean-runs
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 22
@@ -32,6 +32,14 @@ test: setup ## the test suite
 
 verify: setup ## long: every scene on the CPU, on the GPU if there is one, compared
 	bash scripts/verify.sh $(ARGS)
+
+report: build ## claims, hard cases, speed against error: docs/verification.md, stability.md, accuracy.md
+	cargo run --release --locked --quiet -- report verification
+	cargo run --release --locked --quiet -- report stability
+	cargo run --release --locked --quiet -- report accuracy
+
+mutants: setup ## plant known faults, one by one; every one must be noticed by a test
+	bash scripts/mutants.sh $(ARGS)
 
 lint: setup ## format, clippy, licences
 	bash scripts/lint.sh

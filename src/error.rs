@@ -64,6 +64,10 @@ pub enum Error {
     #[error("stage {stage:?} did not settle: {detail}")]
     NotSettled { stage: String, detail: String },
 
+    /// A report whose claims do not all hold.
+    #[error("claims that do not hold: {cases}; the report says by how much")]
+    Claims { cases: String },
+
     /// Rows of a bench that failed, or whose results are wrong: a fast wrong run is a failed run.
     #[error("bench rows failed: {detail}")]
     Bench { detail: String },
@@ -87,6 +91,7 @@ impl Error {
             Error::Inverted { .. }
             | Error::NotFinite { .. }
             | Error::NotSettled { .. }
+            | Error::Claims { .. }
             | Error::Bench { .. } => 5,
             Error::Io { .. } | Error::Format { .. } | Error::Picture { .. } => 6,
             Error::Interrupted { .. } => 130,

@@ -1,7 +1,8 @@
 //! Every kernel holds what its scene uses and nothing else. Proved on the composed text, without an adapter.
 //!
-//! The parts that decide a kernel's text are few: all combinations of 3 elements, 3 laws, 3 rims, road and friction,
-//! viscosity, gravity, damping and pair positions give some 200 different texts, and every one of them is checked.
+//! The parts that decide a kernel's text are few: all combinations of 3 elements, 3 laws, 3 rims, road and friction law,
+//! viscosity, gravity, damping, held components and pair positions give some 650 different texts, and every one of them
+//! is checked.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::path::Path;
@@ -10,7 +11,7 @@ use std::sync::LazyLock;
 use hexroll::gpu::Counts;
 use hexroll::gpu::compose::{Choice, Kernel, PARTS, RimKind};
 use hexroll::gpu::layout;
-use hexroll::scene::{Element, Law};
+use hexroll::scene::{Element, Friction, Law};
 use naga::{Block, Expression, Function, GlobalVariable, Handle, Module, Statement};
 
 const KERNELS: [Kernel; 10] = [
@@ -26,6 +27,16 @@ const KERNELS: [Kernel; 10] = [
     Kernel::CheckSums,
 ];
 
+/// Road, friction, held components.
+const ROADS: [(bool, Option<Friction>, bool); 6] = [
+    (false, None, false),
+    (true, None, false),
+    (true, Some(Friction::Coulomb { mu: 1.0 }), false),
+    (true, Some(Friction::Viscous { slope: 1.0 }), true),
+    (true, Some(Friction::Stribeck { still: 1.0, kinetic: 1.0, speed: 1.0, slope: 1.0 }), false),
+    (true, Some(Friction::PressureVelocity { a: 1.0, b: 1.0, pressure: 1.0, c: 1.0, speed: 1.0 }), true),
+];
+
 fn choices() -> Vec<Choice> {
     let elements = [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
     let laws = [
@@ -37,12 +48,22 @@ fn choices() -> Vec<Choice> {
     for element in elements {
         for law in laws {
             for rim in [RimKind::None, RimKind::Prescribed, RimKind::Free] {
-                for (road, friction) in [(false, false), (true, false), (true, true)] {
+                for (road, friction, held) in ROADS {
                     for bits in 0..16 {
                         let bit = |k: u32| bits >> k & 1 == 1;
                         let (viscous, gravity, damping, plus) = (bit(0), bit(1), bit(2), bit(3));
-                        let choice =
-                            Choice { element, law, viscous, road, friction, gravity, damping, rim, plus };
+                        let choice = Choice {
+                            element,
+                            law,
+                            viscous,
+                            road,
+                            friction,
+                            held,
+                            gravity,
+                            damping,
+                            rim,
+                            plus,
+                        };
                         all.push(choice);
                     }
                 }
@@ -196,7 +217,7 @@ fn may_be_unused(parts: &[&str], name: &str) -> bool {
 #[test]
 fn every_composition_is_valid_and_all_of_it_is_reached() {
     let all = composed();
-    assert!((150..400).contains(&all.len()), "{} texts", all.len());
+    assert!((150..800).contains(&all.len()), "{} texts", all.len());
     for Composed { choice, kernel, .. } in all {
         let module = choice.module(*kernel).unwrap_or_else(|e| panic!("{choice:?}: {e}"));
         assert_eq!(module.entry_points.len(), 1);
@@ -253,12 +274,36 @@ struct Feature {
     chosen: fn(&Choice) -> bool,
 }
 
-const FEATURES: [Feature; 7] = [
+const FEATURES: [Feature; 11] = [
     Feature {
         name: "friction",
         files: &["friction/coulomb", "road/velocity", "contact/friction"],
-        instead: &["contact/frictionless"],
-        chosen: |c| c.friction,
+        instead: &["contact/frictionless", "friction/coulomb"],
+        chosen: |c| c.friction.is_some(),
+    },
+    Feature {
+        name: "Coulomb friction",
+        files: &["friction/coulomb"],
+        instead: &["friction/viscous"],
+        chosen: |c| matches!(c.friction, Some(Friction::Coulomb { .. })),
+    },
+    Feature {
+        name: "Stribeck friction",
+        files: &["friction/stribeck"],
+        instead: &["friction/viscous", "friction/pressure_velocity"],
+        chosen: |c| matches!(c.friction, Some(Friction::Stribeck { .. })),
+    },
+    Feature {
+        name: "friction by pressure",
+        files: &["contact/areas"],
+        instead: &["contact/areas_none"],
+        chosen: |c| c.friction.is_some_and(|law| law.needs_area()),
+    },
+    Feature {
+        name: "held components",
+        files: &["hold/components"],
+        instead: &["hold/none"],
+        chosen: |c| c.held,
     },
     Feature {
         name: "contact",

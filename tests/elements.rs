@@ -268,6 +268,7 @@ fn shape_classes_tell_shapes_apart() {
         rim: vec![],
         axle: [0.0; 3],
         surface: vec![],
+        held: vec![],
     };
     let model = Model::from_mesh(mesh, &body(Lumping::RowSum)).unwrap();
     assert_eq!(model.class_of, [0, 1, 2, 0]);
@@ -338,6 +339,7 @@ fn row_sums_keep_the_centre_of_mass() {
         rim: vec![],
         axle: [0.0; 3],
         surface: vec![],
+        held: vec![],
     };
     let centroid = |lumping| {
         let model = Model::from_mesh(mesh.clone(), &body(lumping)).unwrap();

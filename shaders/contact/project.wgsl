@@ -1,6 +1,6 @@
 // Contact that is always satisfied; twin of src/physics/contact.rs.
 
-fn touched(node: Node, x: vec3f, v_star: vec3f) -> Moved {
+fn touched(node: Node, x: vec3f, v: vec3f, v_star: vec3f) -> Moved {
     if node.role == INTERIOR {
         return unconstrained(x, v_star);
     }
@@ -13,7 +13,7 @@ fn touched(node: Node, x: vec3f, v_star: vec3f) -> Moved {
     let push = -gap / step.dt;
     let per_step = inertia(node.mass) / step.dtm;
     let pressed = v_star + push * n;
-    let rubbed = rub(x_star, n, push, per_step, pressed);
+    let rubbed = rub(node.role, x_star, v, n, push, per_step, pressed);
     let x_free = x + step.dt * rubbed.v;
     let x_new = x_free - road_gap(x_free) * n;
     return Moved(x_new, rubbed.v, per_step * push * n, per_step * (rubbed.v - pressed), rubbed.touches);

@@ -19,7 +19,7 @@ fn main(
         return;
     }
     let node = nodes[n];
-    let f_int = gather(n);
+    let f_int = moving(n, gather(n));
     let x = load_position(n);
     let v = velocities[n].xyz;
     let moved = move_node(node, f_int, x, v);

@@ -15,7 +15,8 @@ fn main(
         return;
     }
     let node = nodes[n];
-    let f_int = gather(n);
+    let whole = gather(n);
+    let f_int = moving(n, whole);
     let x = load_position(n);
     let v = velocities_now[n].xyz;
     let moved = move_node(node, f_int, x, v);
@@ -25,7 +26,7 @@ fn main(
     let rim = is_rim(node.role);
     let own = select(1.0, 0.0, rim);
     probes[n].energies = vec4f(
-        0.5 * node.mass * dot(v, moved.v), 0.5 * node.mass * dot(v, v), own * dot(net, net), own * dot(f_int, f_int));
+        0.5 * node.mass * dot(v, moved.v), 0.5 * node.mass * dot(v, v), own * dot(net, net), own * dot(whole, whole));
     probes[n].works = vec4f(
         -dot(f_int, way), node.mass * dot(gravity(), way), own * damping_work(node.mass, v, moved.v, way),
         (1.0 - own) * dot(net + f_int - node.mass * gravity(), way));

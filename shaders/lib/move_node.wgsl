@@ -17,5 +17,5 @@ fn move_node(node: Node, f_int: vec3f, x: vec3f, v: vec3f) -> Moved {
     if is_rim(node.role) {
         return carried(node.role & 0x7fffffffu);
     }
-    return touched(node, x, predict(node.mass, f_int, v));
+    return touched(node, x, v, predict(node.mass, f_int, v));
 }

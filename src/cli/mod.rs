@@ -15,6 +15,7 @@ mod pictures;
 mod progress;
 mod recorder;
 mod render;
+mod report;
 mod run;
 mod study;
 mod sweep;
@@ -78,6 +79,9 @@ enum Command {
     /// Errors between two runs of one mesh, history by history and field by field
     #[command(after_help = compare::HELP)]
     Compare(compare::CompareArgs),
+    /// Measure what can be believed: claims against closed forms, limits of stability, speed against error
+    #[command(after_help = report::HELP)]
+    Report(report::ReportArgs),
     /// List the GPU adapters, their limits, and the one that `--engine auto` takes
     Adapters(adapters::AdaptersArgs),
     /// Time every engine against the machine's measured limits
@@ -113,6 +117,7 @@ impl Cli {
             Command::Study(args) => study::execute(&args),
             Command::Sweep(args) => sweep::execute(&args),
             Command::Compare(args) => compare::execute(&args),
+            Command::Report(args) => report::execute(&args),
             Command::Adapters(args) => adapters::execute(&args),
             Command::Bench(args) => bench::execute(&args),
         }

@@ -9,8 +9,9 @@ use super::state::{Aligned, Field, View};
 use super::team::SpinBarrier;
 use crate::engine::{Engine, EngineInfo, Probe, StageSetup, State, Step, StepContact, SurfaceSum, Window};
 use crate::error::{Error, Result};
-use crate::model::{Model, frame};
-use crate::physics::friction::Coulomb;
+use crate::model::mesh::Mesh;
+use crate::model::{Model, areas, frame};
+use crate::physics::friction::AnyFriction;
 use crate::physics::lanes::{Level, WIDEST};
 use crate::physics::node::{Loads, StepSize};
 use crate::physics::rim::{self, Coordinates};
@@ -37,8 +38,10 @@ pub struct CpuEngine<T> {
     rim_nodes: Vec<usize>,
     shares: Vec<Share>,
     road: Option<Road>,
-    friction: Option<Coulomb<T>>,
+    friction: Option<AnyFriction<T>>,
     gravity: Vec3<T>,
+    /// For the areas of surface nodes, where friction looks at pressure.
+    mesh: Option<Mesh>,
     setup: StageSetup,
     rim: RimState,
     /// Origin of the engine's frame: positions are kept relative to it.
@@ -94,7 +97,15 @@ where
             power: vec![0.0; layout.items.len() * WIDEST],
             sums: vec![LineSums::default(); layout.lines.len()],
             contact: [0, 1].map(|_| vec![LineContact::default(); layout.surface_lines]),
-            nodes: nodes(model, &layout, &surface_nodes, level),
+            nodes: Nodes {
+                inverse_area: match (scene.friction, &scene.road) {
+                    (Some(law), Some(road)) if law.needs_area() => {
+                        inverse_areas(mesh, |n| mesh.nodes[n as usize], road)
+                    }
+                    _ => Vec::new(),
+                },
+                ..nodes(model, &layout, &surface_nodes, level)
+            },
             stored: stored(model, &layout, level),
             rim_nodes: mesh.rim.iter().map(|&n| layout.place[n as usize] as usize).collect(),
             rim: rim_state(model),
@@ -107,7 +118,8 @@ where
             slot_at,
             shares,
             road: scene.road,
-            friction: scene.friction.map(|Friction::Coulomb { mu }| Coulomb { mu: T::from_f64(mu) }),
+            friction: scene.friction.as_ref().map(AnyFriction::new),
+            mesh: scene.friction.filter(Friction::needs_area).map(|_| mesh.clone()),
             gravity: vec3(scene.gravity),
             setup: StageSetup::default(),
             frame,
@@ -231,6 +243,13 @@ where
         for d in (0..3).filter(|&d| shift[d] != 0.0) {
             self.frame[d] += shift[d];
             self.x.component_mut(d).iter_mut().for_each(|x| *x -= T::from_f64(shift[d]));
+        }
+    }
+
+    /// Areas of the surface nodes as they are now.
+    fn refresh_areas(&mut self) {
+        if let (Some(mesh), Some(road)) = (&self.mesh, &self.road) {
+            self.nodes.inverse_area = inverse_areas(mesh, |n| self.absolute(n as usize), road);
         }
     }
 
@@ -491,6 +510,10 @@ impl<T> Pointer<T> {
     }
 }
 
+fn inverse_areas<T: Real>(mesh: &Mesh, x: impl Fn(u32) -> [f64; 3], road: &Road) -> Vec<T> {
+    areas::inverse_areas(mesh, x, road).into_iter().map(T::from_f64).collect()
+}
+
 fn sub64(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|d| a[d] - b[d])
 }
@@ -511,7 +534,15 @@ fn nodes<T: NodePass>(model: &Model, layout: &Layout, surface: &[u32], level: Le
     for &n in &model.mesh.rim {
         rim_arms.set(place(n), sub64(model.mesh.nodes[n as usize], model.mesh.axle));
     }
-    Nodes { lines: layout.lines.clone(), mass, inverse_mass, surface_of, rim_arms, level }
+    Nodes {
+        lines: layout.lines.clone(),
+        mass,
+        inverse_mass,
+        surface_of,
+        rim_arms,
+        inverse_area: Vec::new(),
+        level,
+    }
 }
 
 fn stored(model: &Model, layout: &Layout, level: Level) -> Stored {
@@ -659,6 +690,7 @@ where
             min_jacobian: energies.min_jacobian,
         };
         self.follow();
+        self.refresh_areas();
         Ok(window)
     }
 

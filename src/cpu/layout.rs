@@ -75,6 +75,8 @@ pub struct NodeBatch {
     pub rim: u32,
     /// Nodes that can touch the road.
     pub surface: u32,
+    /// Held components: lanes by component.
+    pub held: [u32; 3],
 }
 
 /// Consecutive nodes.
@@ -404,6 +406,13 @@ impl<'a> Builder<'a> {
         if road {
             mark(&model.mesh.surface, |b| &mut b.surface);
         }
+        let held = |d: usize| {
+            let bits = model.mesh.held.iter().enumerate();
+            bits.filter(move |(_, bits)| *bits >> d & 1 == 1).map(|(n, _)| n as u32).collect::<Vec<u32>>()
+        };
+        mark(&held(0), |b| &mut b.held[0]);
+        mark(&held(1), |b| &mut b.held[1]);
+        mark(&held(2), |b| &mut b.held[2]);
         let mut surface_lines = 0;
         for line in &mut self.lines {
             line.has_rim = line.batches.iter().any(|b| b.rim != 0);

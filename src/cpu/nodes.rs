@@ -5,7 +5,7 @@ use super::layout::{Line, NodeBatch};
 use super::state::{Aligned, Field, View};
 use crate::engine::SurfaceSum;
 use crate::physics::contact::{self, Touch};
-use crate::physics::friction::Coulomb;
+use crate::physics::friction::AnyFriction;
 use crate::physics::lanes::{Array, Lanes, Level, WIDEST};
 use crate::physics::node::{self, Loads, Prediction, StepSize};
 use crate::physics::road::Plane;
@@ -24,6 +24,8 @@ pub struct Nodes<T> {
     pub surface_of: Vec<u32>,
     /// Rim nodes' positions relative to the axle in the reference orientation; zero for others.
     pub rim_arms: Field<T>,
+    /// One over the area of each surface node [1/m2], as of the last sample; empty unless friction looks at pressure.
+    pub inverse_area: Vec<T>,
     pub level: Level,
 }
 
@@ -33,7 +35,7 @@ pub struct Conditions<T> {
     pub step: StepSize<T>,
     pub loads: Loads<T>,
     pub road: Option<Plane<T>>,
-    pub friction: Option<Coulomb<T>>,
+    pub friction: Option<AnyFriction<T>>,
     /// Axle at the end of the step in the engine's frame and its mean velocity, rotation at the end and its mean rate
     /// (columns), axle at the start.
     pub axle: Vec3<T>,
@@ -175,6 +177,16 @@ unsafe fn internal_force<N: Lanes>(line: &Line, view: &View<N::Real>, offset: us
     f
 }
 
+/// A force without its held components, which whatever holds them takes; `held`: lanes by component.
+#[inline(always)]
+fn moving<N: Lanes>(held: [u32; 3], f: Vec3<N>) -> Vec3<N> {
+    if held == [0; 3] {
+        return f;
+    }
+    let zero = N::zero();
+    [zero.choose(f[0], held[0]), zero.choose(f[1], held[1]), zero.choose(f[2], held[2])]
+}
+
 /// New velocity and position of the lanes.
 #[derive(Clone, Copy)]
 struct Moved<N> {
@@ -209,7 +221,13 @@ unsafe fn line_in<N: Lanes, const PROBE: bool>(
     for (b, batch) in line.batches.iter().enumerate() {
         let (offset, at) = (b * N::WIDTH, line.start + b * N::WIDTH);
         unsafe {
-            let f_int = internal_force::<N>(line, view, offset);
+            let whole = internal_force::<N>(line, view, offset);
+            let f_int = moving::<N>(batch.held, whole);
+            if PROBE && batch.held != [0; 3] {
+                // What holds a node pushes back, as a road does: it belongs to the scale of forces.
+                let held = dot(whole, whole) - dot(f_int, f_int);
+                sums.internal_force2 += N::zero().choose(held, batch.rim);
+            }
             let x = load3::<N>(&view.x, at);
             let v = load3::<N>(&view.v, at);
             let mass = N::load(nodes.mass.slice().as_ptr(), at);
@@ -303,17 +321,20 @@ unsafe fn touch<N: Lanes, const PROBE: bool>(
     }
     for lane in (0..N::WIDTH).filter(|lane| batch.surface >> lane & 1 == 1) {
         let old = [x[0].lane(lane), x[1].lane(lane), x[2].lane(lane)];
+        let before = [v[0].lane(lane), v[1].lane(lane), v[2].lane(lane)];
         let v_star = [moved[3][lane], moved[4][lane], moved[5][lane]];
+        let k = nodes.surface_of[at + lane] as usize;
         let inertia = node::inertia(&c.loads, c.step, nodes.mass.slice()[at + lane]);
-        let Some(t) = contact::project(road, c.friction.as_ref(), inertia, c.step, old, v_star) else {
+        let area = || nodes.inverse_area.get(k).copied().unwrap_or(<N::Real as Scalar>::zero());
+        let Some(t) =
+            contact::project_any(road, c.friction.as_ref(), area, inertia, c.step, old, before, v_star)
+        else {
             continue;
         };
         for d in 0..3 {
             moved[d][lane] = t.x[d];
             moved[3 + d][lane] = t.v[d];
         }
-        let before = [v[0].lane(lane), v[1].lane(lane), v[2].lane(lane)];
-        let k = nodes.surface_of[at + lane] as usize;
         unsafe { book_touch::<N::Real, PROBE>(c, k, &t, before, books, sums, contact) };
     }
     let row = moved.each_ref().map(|r| r.as_ptr());

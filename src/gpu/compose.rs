@@ -5,7 +5,7 @@
 
 use super::layout;
 use crate::error::{Error, Result};
-use crate::scene::{Element, Law};
+use crate::scene::{Element, Friction, Law};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 macro_rules! shaders {
@@ -15,9 +15,12 @@ macro_rules! shaders {
     };
 }
 shaders!(
+    "contact/areas",
+    "contact/areas_none",
     "contact/book",
     "contact/book_none",
     "contact/friction",
+    "contact/friction_law",
     "contact/frictionless",
     "contact/landing",
     "contact/landing_none",
@@ -33,6 +36,11 @@ shaders!(
     "element/q1p0",
     "element/uniform_gradient",
     "friction/coulomb",
+    "friction/pressure_velocity",
+    "friction/stribeck",
+    "friction/viscous",
+    "hold/components",
+    "hold/none",
     "kernels/check_sums",
     "kernels/element_energy",
     "kernels/element_force",
@@ -113,12 +121,27 @@ pub struct Choice {
     pub law: Law,
     pub viscous: bool,
     pub road: bool,
-    pub friction: bool,
+    pub friction: Option<Friction>,
+    /// Whether some nodes have held components.
+    pub held: bool,
     pub gravity: bool,
     pub damping: bool,
     pub rim: RimKind,
     /// Positions as hi + lo pairs.
     pub plus: bool,
+}
+
+/// A friction law and what finds the force with it.
+fn friction_parts(law: &Friction) -> Vec<&'static str> {
+    let areas = if law.needs_area() { "contact/areas" } else { "contact/areas_none" };
+    match law {
+        Friction::Coulomb { .. } => vec!["contact/friction", "friction/coulomb"],
+        Friction::Viscous { .. } => vec!["contact/friction_law", "friction/viscous", areas],
+        Friction::Stribeck { .. } => vec!["contact/friction_law", "friction/stribeck", areas],
+        Friction::PressureVelocity { .. } => {
+            vec!["contact/friction_law", "friction/pressure_velocity", areas]
+        }
+    }
 }
 
 impl Choice {
@@ -188,11 +211,12 @@ impl Choice {
         }
         parts.extend(match (self.road, self.friction) {
             (false, _) => vec!["contact/none"],
-            (true, false) => vec!["contact/project", "contact/frictionless", "road/plane"],
-            (true, true) => {
-                vec!["contact/project", "contact/friction", "friction/coulomb", "road/plane", "road/velocity"]
+            (true, None) => vec!["contact/project", "contact/frictionless", "road/plane"],
+            (true, Some(law)) => {
+                [vec!["contact/project", "road/plane", "road/velocity"], friction_parts(&law)].concat()
             }
         });
+        parts.push(if self.held { "hold/components" } else { "hold/none" });
         parts
     }
 

@@ -28,7 +28,7 @@ pub struct AdapterReport {
 }
 
 /// Storage buffers bound by the largest kernel.
-pub const STORAGE_BUFFERS: u32 = 13;
+pub const STORAGE_BUFFERS: u32 = 15;
 
 fn instance() -> wgpu::Instance {
     wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env())

@@ -11,7 +11,8 @@ use super::stage::{Bound, StagePrograms};
 use super::verdict;
 use crate::engine::{Engine, EngineInfo, Probe, StageSetup, State, Step, SurfaceSum, Window, Works};
 use crate::error::Result;
-use crate::model::{Model, frame};
+use crate::model::mesh::Mesh;
+use crate::model::{Model, areas, frame};
 use crate::physics::rim::{self, Coordinates};
 use crate::scene::{Friction, Road, Scene};
 use std::time::{Duration, Instant};
@@ -44,6 +45,8 @@ pub struct GpuEngine {
     setup: StageSetup,
     rim: FreeRim,
     road: Option<Road>,
+    /// For the areas of surface nodes, where friction looks at pressure.
+    mesh: Option<Mesh>,
     frame: [f64; 3],
     grain: f64,
     counts: Counts,
@@ -112,7 +115,8 @@ impl GpuEngine {
             law: model.law,
             viscous: model.viscosity.is_some(),
             road: scene.road.is_some(),
-            friction: scene.friction.is_some(),
+            friction: scene.friction,
+            held: !model.mesh.held.is_empty(),
             gravity: scene.gravity != [0.0; 3],
             damping: false,
             rim: if model.mesh.rim.is_empty() { RimKind::None } else { RimKind::Prescribed },
@@ -128,7 +132,7 @@ impl GpuEngine {
             most_groups: gpu.report.workgroups,
         };
         let constants = constants(model, scene);
-        let buffers = upload(gpu, model, &choice, &counts, frame);
+        let buffers = upload(gpu, model, &choice, &counts, frame, scene.road.as_ref());
         let program = |kernel| Program::new(gpu, &choice, kernel, &constants);
         let bound = |p: Program| Bound::new(gpu, p, |name| buffers.get(canonical(name)));
         let element_force = program(Kernel::ElementForce)?;
@@ -149,6 +153,7 @@ impl GpuEngine {
             rim: FreeRim::new(model),
             gpu: gpu.clone(),
             road: scene.road,
+            mesh: scene.friction.filter(Friction::needs_area).map(|_| model.mesh.clone()),
             setup: StageSetup::default(),
             steps: 0,
             window_steps: 0,
@@ -472,9 +477,7 @@ fn constants(model: &Model, scene: &Scene) -> Vec<(&'static str, f64)> {
     };
     let mut all = vec![("g0", g0), ("g1", g1), ("g2", g2), ("eta", model.viscosity.unwrap_or(0.0))];
     all.extend(["gravity_x", "gravity_y", "gravity_z"].into_iter().zip(scene.gravity));
-    if let Some(Friction::Coulomb { mu }) = scene.friction {
-        all.push(("mu", mu));
-    }
+    all.extend(scene.friction.iter().flat_map(friction_constants));
     if let Some(Road::Plane { point, normal, velocity }) = scene.road {
         all.extend(["normal_x", "normal_y", "normal_z"].into_iter().zip(normal));
         all.extend(["road_velocity_x", "road_velocity_y", "road_velocity_z"].into_iter().zip(velocity));
@@ -484,7 +487,38 @@ fn constants(model: &Model, scene: &Scene) -> Vec<(&'static str, f64)> {
     all
 }
 
-fn upload(gpu: &Gpu, model: &Model, choice: &Choice, counts: &Counts, frame: [f64; 3]) -> Buffers {
+fn friction_constants(law: &Friction) -> Vec<(&'static str, f64)> {
+    match *law {
+        Friction::Coulomb { mu } => vec![("mu", mu)],
+        Friction::Viscous { slope } => vec![("friction_slope", slope)],
+        Friction::Stribeck { still, kinetic, speed, slope } => vec![
+            ("friction_still", still),
+            ("friction_kinetic", kinetic),
+            ("friction_inverse_speed", 1.0 / speed),
+            ("friction_slope", slope),
+        ],
+        Friction::PressureVelocity { a, b, pressure, c, speed } => vec![
+            ("friction_a", a),
+            ("friction_b", b),
+            ("friction_inverse_pressure", 1.0 / pressure),
+            ("friction_c", c),
+            ("friction_inverse_speed", 1.0 / speed),
+        ],
+    }
+}
+
+fn inverse_areas(mesh: &Mesh, x: impl Fn(u32) -> [f64; 3], road: &Road) -> Vec<f32> {
+    areas::inverse_areas(mesh, x, road).into_iter().map(|a| a as f32).collect()
+}
+
+fn upload(
+    gpu: &Gpu,
+    model: &Model,
+    choice: &Choice,
+    counts: &Counts,
+    frame: [f64; 3],
+    road: Option<&Road>,
+) -> Buffers {
     let mut b = Buffers::default();
     let mesh = &model.mesh;
     b.filled(gpu, "hexes", mesh.hexes.as_flattened());
@@ -497,6 +531,12 @@ fn upload(gpu: &Gpu, model: &Model, choice: &Choice, counts: &Counts, frame: [f6
     let arm = |&n: &u32| vec4(std::array::from_fn(|d| mesh.nodes[n as usize][d] - mesh.axle[d]));
     b.filled(gpu, "rim_arms", &mesh.rim.iter().map(arm).collect::<Vec<_>>());
     b.filled(gpu, "surface_nodes", &mesh.surface);
+    if choice.held {
+        b.filled(gpu, "held", &mesh.held.iter().map(|&bits| u32::from(bits)).collect::<Vec<u32>>());
+    }
+    if let (Some(road), true) = (road, choice.friction.is_some_and(|law| law.needs_area())) {
+        b.filled(gpu, "inverse_areas", &inverse_areas(mesh, |n| mesh.nodes[n as usize], road));
+    }
     let (hi, lo) = split(&mesh.nodes, frame);
     for (name, data) in [("positions", &hi), ("trial_positions", &hi)] {
         b.filled(gpu, name, data);
@@ -648,6 +688,7 @@ impl Engine for GpuEngine {
         window.probe.half_works.internal -= window.probe.half_works.viscous;
         if self.counts.surface > 0 {
             self.read_surface(&mut window, sums, states);
+            self.refresh_areas(&window);
         }
         self.clear_sums();
         self.follow()?;
@@ -711,6 +752,18 @@ impl Engine for GpuEngine {
 }
 
 impl GpuEngine {
+    /// Areas of the surface nodes at the end of a window, where friction looks at pressure.
+    fn refresh_areas(&self, window: &Window) {
+        let (Some(mesh), Some(road)) = (&self.mesh, &self.road) else { return };
+        let at = |n: u32| match mesh.surface.binary_search(&n) {
+            Ok(k) => window.surface[k].x,
+            // A rim node beside the surface: its facet faces no road.
+            Err(_) => mesh.nodes[n as usize],
+        };
+        let areas = inverse_areas(mesh, at, road);
+        self.gpu.queue.write_buffer(self.buffers.get("inverse_areas"), 0, bytemuck::cast_slice(&areas));
+    }
+
     fn read_surface(&self, window: &mut Window, sums: &[u8], states: &[u8]) {
         let sums: &[SurfaceRecord] = bytemuck::cast_slice(sums);
         let states: &[[f32; 4]] = bytemuck::cast_slice(states);

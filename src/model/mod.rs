@@ -1,5 +1,6 @@
 //! SI, f64 description of the discrete body: mesh, mass, shape classes, who gathers from whom.
 
+pub mod areas;
 mod classes;
 pub mod frame;
 pub mod mesh;
@@ -33,7 +34,8 @@ impl Model {
     /// Meshes a scene. Errors: an inside-out element, a node count beyond 32 bits.
     pub fn new(scene: &Scene) -> Result<Model> {
         let body = &scene.body;
-        let mesh = Mesh::generate(&body.mesh, body.offset, scene.rim.as_ref().map(|r| r.nodes));
+        let rim = scene.rim.as_ref().map(|r| r.nodes);
+        let mesh = Mesh::graded(&body.mesh, &body.grading, body.offset, rim, &scene.holds);
         Model::from_mesh(mesh, body).map_err(|element| Error::Scene {
             file: scene.file.display().to_string(),
             line: None,

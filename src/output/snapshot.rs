@@ -181,7 +181,7 @@ fn mesh(grid: &Grid, nodes: Vec<[f64; 3]>) -> Result<Mesh> {
     let members = |set| (0..).zip(&sets).filter(|&(_, &s)| s == set).map(|(n, _)| n).collect();
     let axle = vectors(grid, FieldData, "axle_reference", 1)?[0];
     let facets = boundary(&hexes);
-    Ok(Mesh { nodes, facets, hexes, rim: members(RIM), axle, surface: members(SURFACE) })
+    Ok(Mesh { nodes, facets, hexes, rim: members(RIM), axle, surface: members(SURFACE), held: Vec::new() })
 }
 
 /// Faces that belong to one element only, in the order of the elements.

@@ -52,6 +52,8 @@ pub trait Real: Scalar + PartialOrd + bytemuck::Pod {
     const EPSILON: f64;
     fn to_f64(self) -> f64;
     fn sqrt(self) -> Self;
+    /// e^self; in friction laws only.
+    fn exp(self) -> Self;
     /// self^(-1/3) within 4 %, and the steps that make it exact (each multiplies the digits by four).
     fn recip_cbrt_guess(self) -> Self;
     const CBRT_STEPS: usize;
@@ -91,6 +93,10 @@ macro_rules! real {
             #[inline(always)]
             fn sqrt(self) -> Self {
                 <$type>::sqrt(self)
+            }
+            #[inline(always)]
+            fn exp(self) -> Self {
+                <$type>::exp(self)
             }
             #[inline(always)]
             fn recip_cbrt_guess(self) -> Self {

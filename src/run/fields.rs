@@ -3,67 +3,12 @@
 use crate::cpu::element_forces;
 use crate::engine::{State, Window};
 use crate::model::Model;
-use crate::model::mesh::Mesh;
+use crate::model::areas::contact_areas;
 use crate::physics::element::hex8;
 use crate::physics::rim;
-use crate::physics::tensor::{add, cross, dot, scale, sub};
+use crate::physics::tensor::{dot, scale, sub};
 use crate::record::{ContactNode, ContactState, Snapshot};
 use crate::scene::Road;
-
-/// Tributary areas of the surface nodes [m2], shape `[surface_count]`: the quarters nearest to each node of its
-/// deformed facets, projected on the road, of facets that face it. Without a road: empty.
-pub fn contact_areas(mesh: &Mesh, x: impl Fn(u32) -> [f64; 3], road: &Road) -> Vec<f64> {
-    let mut areas = vec![0.0; mesh.surface.len()];
-    quarters(mesh, x, road, |k, area, _| areas[k] += area);
-    areas
-}
-
-/// Extents of the quarters of some nodes, `touches` by their index in the surface, along the unit directions [m].
-pub fn extents(
-    mesh: &Mesh,
-    x: impl Fn(u32) -> [f64; 3],
-    road: &Road,
-    touches: impl Fn(usize) -> bool,
-    directions: [[f64; 3]; 2],
-) -> [f64; 2] {
-    let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
-    quarters(mesh, x, road, |k, _, corners| {
-        if touches(k) {
-            for (bound, direction) in bounds.iter_mut().zip(&directions) {
-                for corner in corners {
-                    let at = dot(*corner, *direction);
-                    *bound = [bound[0].min(at), bound[1].max(at)];
-                }
-            }
-        }
-    });
-    bounds.map(|[low, high]| (high - low).max(0.0))
-}
-
-/// Calls `visit` with every quarter of a facet that faces the road: index in the surface of the node it belongs to,
-/// projected area, corners.
-fn quarters(
-    mesh: &Mesh,
-    x: impl Fn(u32) -> [f64; 3],
-    road: &Road,
-    mut visit: impl FnMut(usize, f64, &[[f64; 3]; 4]),
-) {
-    let Road::Plane { normal, .. } = road;
-    for facet in &mesh.facets {
-        let p = facet.map(&x);
-        let middle = |a: usize, b: usize| scale(add(p[a], p[b]), 0.5);
-        let centre = scale(add(middle(0, 1), middle(2, 3)), 0.5);
-        for a in 0..4 {
-            let Ok(k) = mesh.surface.binary_search(&facet[a]) else { continue };
-            let (before, after) = (middle((a + 3) % 4, a), middle(a, (a + 1) % 4));
-            let doubled = cross(sub(centre, p[a]), sub(before, after));
-            let area = -0.5 * dot(doubled, *normal);
-            if area > 0.0 {
-                visit(k, area, &[p[a], after, centre, before]);
-            }
-        }
-    }
-}
 
 /// A snapshot at the end of a window.
 #[allow(clippy::too_many_arguments)] // what a snapshot is made of

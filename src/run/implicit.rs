@@ -209,7 +209,11 @@ fn surface(road: Option<&Road>, friction: Option<Friction>, model: &Model) -> Op
     let reach = model.mesh.nodes.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
     Some(Surface {
         road: Plane::new(point, normal, velocity, [0.0; 3]),
-        friction: friction.map(|Friction::Coulomb { mu }| Coulomb { mu }),
+        // Other laws were refused before the run.
+        friction: friction.and_then(|law| match law {
+            Friction::Coulomb { mu } => Some(Coulomb { mu }),
+            _ => None,
+        }),
         dt: 0.0,
         // A few units in the last place of a position.
         touch: 16.0 * f64::EPSILON * reach,

@@ -1,9 +1,9 @@
 //! From windows to history rows: totals, balances, means.
 
 use super::chatter;
-use super::fields::{contact_areas, extents};
 use crate::engine::{SurfaceSum, Window, Works};
 use crate::model::Model;
+use crate::model::areas::{contact_areas, extents};
 use crate::physics::rim;
 use crate::physics::tensor::dot;
 use crate::record::Sample;

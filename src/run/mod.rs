@@ -8,10 +8,11 @@ mod ledger;
 mod motion;
 pub mod stability;
 
-pub use fields::contact_areas;
 pub use implicit::ImplicitCounts;
 pub use ledger::{Ledger, road_axes};
 pub use motion::Motion;
+
+pub use crate::model::areas::contact_areas;
 
 use crate::engine::{Engine, Step, Window};
 use crate::error::{Error, Result};
@@ -143,11 +144,15 @@ impl<'a> Run<'a> {
     ) -> Result<Self> {
         let [x, y, z] = model.mesh.axle;
         let rim = [x, y, z, 0.0, 0.0, 0.0];
+        let implicit = scene.stages.iter().any(|s| matches!(s.method, Method::Implicit(_)));
         let mut totals = Totals { element_bound: stability::element_bound(model)?, ..Totals::default() };
         totals.dt_min = f64::INFINITY;
         totals.critical_min = f64::INFINITY;
         // The mesh generators' reference shape stores nothing.
         totals.ledger.start(0.0);
+        if let (true, Some(gap)) = (implicit, scene.beyond_implicit()) {
+            return Err(gap);
+        }
         let mut run = Run {
             scene,
             model,
@@ -187,7 +192,13 @@ impl<'a> Run<'a> {
 
     fn set_velocities(&mut self, field: impl Fn(DVec3) -> DVec3) -> Result<()> {
         let x = self.engine.state()?.x;
-        let v: Vec<[f64; 3]> = x.iter().map(|&x| field(DVec3::from(x)).to_array()).collect();
+        let held = &self.model.mesh.held;
+        let free = |n: usize, d: usize| held.get(n).is_none_or(|bits| bits >> d & 1 == 0);
+        let velocity = |(n, &x): (usize, &[f64; 3])| {
+            let v = field(DVec3::from(x)).to_array();
+            std::array::from_fn(|d| if free(n, d) { v[d] } else { 0.0 })
+        };
+        let v: Vec<[f64; 3]> = x.iter().enumerate().map(velocity).collect();
         self.engine.set_velocity(&v, &self.rim_rate)?;
         let square = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>();
         let kinetic = v.iter().zip(&self.model.mass).map(|(v, m)| 0.5 * m * square(v)).sum();
@@ -395,7 +406,9 @@ impl<'a> Run<'a> {
         }
         let (f, g) = (self.engine.force(&x, &still)?, self.engine.force(&nudged, &still)?);
         let free = (0..x.len()).filter(|&n| mesh.rim.binary_search(&(n as u32)).is_err());
-        let square = |n: usize| (0..3).map(|d| (f[n][d] - g[n][d]).powi(2)).sum::<f64>();
+        let held = |n: usize, d: usize| mesh.held.get(n).is_some_and(|bits| bits >> d & 1 == 1);
+        let square =
+            |n: usize| (0..3).filter(|&d| !held(n, d)).map(|d| (f[n][d] - g[n][d]).powi(2)).sum::<f64>();
         Ok(2.0 * free.map(square).sum::<f64>().sqrt())
     }
 

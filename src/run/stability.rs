@@ -88,17 +88,20 @@ pub fn assembled(
     guess: f64,
     before: Option<&Critical>,
 ) -> Result<Critical> {
-    let mut held = vec![false; x.len()];
-    model.mesh.rim.iter().for_each(|&n| held[n as usize] = true);
+    let mut held = vec![false; 3 * x.len()];
+    model.mesh.rim.iter().for_each(|&n| held[3 * n as usize..3 * n as usize + 3].fill(true));
+    for (n, bits) in model.mesh.held.iter().enumerate() {
+        (0..3).filter(|d| bits >> d & 1 == 1).for_each(|d| held[3 * n + d] = true);
+    }
     let mass: Vec<f64> = model.mass.iter().flat_map(|&m| [m; 3]).collect();
     let start = match before {
         // A little of everything, so that a mode orthogonal to the last one can grow.
         Some(c) if c.vector.len() == mass.len() => {
-            let noise = spread(mass.len(), |i| !held[i / 3]);
+            let noise = spread(mass.len(), |i| !held[i]);
             let scale = 0.05 / mass.iter().zip(&noise).map(|(m, n)| m * n * n).sum::<f64>().sqrt();
             c.vector.iter().zip(&noise).map(|(v, n)| v + scale * n).collect()
         }
-        _ => spread(mass.len(), |i| !held[i / 3]),
+        _ => spread(mass.len(), |i| !held[i]),
     };
     let single = engine.info().precision != "f64";
     let size = model.classes.iter().map(|c| c.volume.cbrt()).fold(f64::INFINITY, f64::min);
@@ -115,7 +118,7 @@ pub fn assembled(
             engine.force(&moved, &moving)
         };
         let (f, g) = (side(1.0)?, side(-1.0)?);
-        let free = |i: usize| if held[i / 3] { 0.0 } else { 1.0 };
+        let free = |i: usize| if held[i] { 0.0 } else { 1.0 };
         Ok((0..mass.len())
             .map(|i| free(i) * (f[i / 3][i % 3] - g[i / 3][i % 3]) / (2.0 * e * mass[i]))
             .collect())

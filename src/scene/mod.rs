@@ -26,6 +26,8 @@ pub struct Scene {
     pub expected: String,
     pub body: Body,
     pub rim: Option<Rim>,
+    /// Components of nodes that stay at rest: symmetry planes, plane strain.
+    pub holds: Vec<Hold>,
     pub road: Option<Road>,
     /// `None`: frictionless.
     pub friction: Option<Friction>,
@@ -37,10 +39,29 @@ pub struct Scene {
     pub output: Output,
 }
 
+impl Scene {
+    /// What of this scene implicit stages cannot do, as an error.
+    pub fn beyond_implicit(&self) -> Option<crate::Error> {
+        let error = |what: &str, instead: &str| crate::Error::Unsupported {
+            what: format!("{}: {what} in an implicit stage", self.file.display()),
+            instead: instead.into(),
+        };
+        match self.friction {
+            _ if !self.holds.is_empty() => Some(error("[[hold]]", "use explicit stages")),
+            Some(Friction::Coulomb { .. }) | None => None,
+            Some(_) => {
+                Some(error("friction other than Coulomb's", "use law = \"coulomb\" or explicit stages"))
+            }
+        }
+    }
+}
+
 /// The deformable body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body {
     pub mesh: MeshSpec,
+    /// How element sizes vary; the default is equal elements.
+    pub grading: Grading,
     /// Translation of the whole mesh before the start [m].
     pub offset: [f64; 3],
     /// Mass density in the reference shape [kg/m3], > 0.
@@ -70,6 +91,26 @@ pub enum MeshSpec {
     },
     /// A box with one corner at the origin, edges along +x, +y, +z.
     Block { size: [f64; 3], elements: [usize; 3] },
+}
+
+/// How the sizes of elements vary along each direction of a mesh.
+///
+/// With ratio q in a direction, node i of n stands at the share (q^s - 1)/(q - 1) of its length, s = i/n: sizes grow
+/// geometrically, and the nodes of a mesh with half as many elements are every other node of this one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grading {
+    /// Element size at the far end over that at the near end, in the order of `elements`, > 0. Block: from x-, y-, z-min
+    /// to -max. Ring: from the bottom to the top, both ways; from the inner to the outer cylinder; from both side
+    /// faces to the middle.
+    pub ratio: [f64; 3],
+    /// Ring: elements within this arc about the bottom are equal [rad], 0..2 pi; only outside do they grow.
+    pub fine_arc: f64,
+}
+
+impl Default for Grading {
+    fn default() -> Self {
+        Grading { ratio: [1.0; 3], fine_arc: 0.0 }
+    }
 }
 
 /// Hyperelastic laws (mechanics: eqs. 4-6). g0, g1, g2 in Pa.
@@ -119,12 +160,23 @@ pub struct Rim {
     pub nodes: NodeSet,
 }
 
+/// Components of a node set that do not move. Rim nodes in the set go with the rim all the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Hold {
+    pub nodes: NodeSet,
+    /// Whether x, y, z are held.
+    pub components: [bool; 3],
+}
+
 /// Node sets the generators make.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NodeSet {
-    /// Inner cylinder of a ring.
+    /// Inner and outer cylinder of a ring.
     Inner,
-    /// Faces of a block.
+    Outer,
+    /// Every node.
+    All,
+    /// Faces of a block; y-min and y-max are the side faces of a ring.
     XMin,
     XMax,
     YMin,
@@ -145,6 +197,20 @@ pub enum Road {
 pub enum Friction {
     /// Constant coefficient mu > 0 (mu = 0 is read as frictionless: `Scene::friction = None`).
     Coulomb { mu: f64 },
+    /// mu = slope v [s/m]: a lubricant; never sticks.
+    Viscous { slope: f64 },
+    /// mu = kinetic + (still - kinetic) exp(-(v/speed)^2) + slope v (Armstrong-Helouvry's form of Stribeck's curve).
+    Stribeck { still: f64, kinetic: f64, speed: f64, slope: f64 },
+    /// mu = a + b exp(-p/pressure) + c exp(-v/speed), p [Pa] a node's normal force over its area: a fit of tests of
+    /// tread rubber. mu >= 0 at every p and v.
+    PressureVelocity { a: f64, b: f64, pressure: f64, c: f64, speed: f64 },
+}
+
+impl Friction {
+    /// Whether the coefficient depends on pressure, so that nodes need areas.
+    pub fn needs_area(&self) -> bool {
+        matches!(self, Friction::PressureVelocity { .. })
+    }
 }
 
 /// A part of the simulation with its own rim motion.

@@ -106,6 +106,12 @@ pub(super) static VISCOSITY: Dimension = Dimension {
     example: "20 Pa s",
     units: units!(DynamicViscosity in dynamic_viscosity: "Pa s" => pascal_second, "mPa s" => millipascal_second),
 };
+/// A friction coefficient per sliding speed.
+pub(super) static SLOWNESS: Dimension = Dimension {
+    noun: "a slope over speed",
+    example: "0.5 s/m",
+    units: &[("s/m", |v| v), ("s/mm", |v| 1e3 * v), ("ms/m", |v| 1e-3 * v)],
+};
 /// Only as 1/s: with Hz nobody could tell whether a factor of 2 pi is meant.
 pub(super) static RATE: Dimension = Dimension {
     noun: "a rate",
@@ -113,7 +119,7 @@ pub(super) static RATE: Dimension = Dimension {
     units: units!(Frequency in frequency: "1/s" => hertz, "1/ms" => kilohertz),
 };
 
-static ALL: [&Dimension; 14] = [
+static ALL: [&Dimension; 15] = [
     &LENGTH,
     &TIME,
     &MASS,
@@ -128,6 +134,7 @@ static ALL: [&Dimension; 14] = [
     &PRESSURE,
     &VISCOSITY,
     &RATE,
+    &SLOWNESS,
 ];
 
 fn mass_of<U>(v: f64) -> uom::si::f64::Mass

@@ -7,5 +7,6 @@ mod comparing;
 mod ending_early;
 mod mistakes;
 mod program;
+mod reporting;
 mod running;
 mod studies;

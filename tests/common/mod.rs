@@ -44,6 +44,7 @@ pub fn scene(mesh: MeshSpec) -> Scene {
         expected: String::new(),
         body: Body {
             mesh,
+            grading: Grading::default(),
             offset: [0.0; 3],
             density: DENSITY,
             law: RUBBER,
@@ -54,6 +55,7 @@ pub fn scene(mesh: MeshSpec) -> Scene {
             angular_velocity: [0.0; 3],
         },
         rim: None,
+        holds: vec![],
         road: None,
         friction: None,
         gravity: [0.0; 3],

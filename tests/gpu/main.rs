@@ -11,6 +11,7 @@ mod contact;
 mod errors;
 mod far;
 mod forces;
+mod laws;
 mod repeat;
 mod rig;
 mod rim;
@@ -26,7 +27,7 @@ use std::sync::Arc;
 
 type Check = fn(&Gpu);
 
-const CHECKS: [(&str, Check); 18] = [
+const CHECKS: [(&str, Check); 19] = [
     ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
     ("forces_as_pairs_are_the_cpus", forces::pairs),
     ("a_step_with_everything_is_the_cpus", steps::everything),
@@ -44,6 +45,7 @@ const CHECKS: [(&str, Check); 18] = [
     ("a_run_that_goes_wrong_says_where", errors::failures),
     ("what_does_not_fit_is_refused", errors::limits),
     ("what_wgpu_refuses_is_an_error", errors::device_errors),
+    ("friction_laws_and_holds_are_the_cpus", laws::friction_and_holds),
     ("nothing_penetrates_and_what_sticks_stays", contact::exact),
 ];
 

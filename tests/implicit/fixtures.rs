@@ -14,6 +14,7 @@ pub const WHEEL_LAW: Law = Law::NeoHookean { g0: 65.1e6, g1: 2.64e6 };
 pub fn body(mesh: MeshSpec, law: Law, element: Element) -> Body {
     Body {
         mesh,
+        grading: Default::default(),
         offset: [0.0; 3],
         density: 1100.0,
         law,

@@ -451,7 +451,7 @@ fn what_comes_later_is_called_unavailable_not_unknown() {
         ("road.shape=disk", "road.shape: \"disk\"", "\"plane\""),
         ("road.shape=rough", "road.shape: \"rough\"", "\"plane\""),
         ("road.roughness=1 mm", "road.roughness", "smooth"),
-        ("friction.law=stribeck", "friction.law: \"stribeck\"", "\"coulomb\""),
+        ("friction.law=table", "friction.law: \"table\"", "\"coulomb\""),
         ("body.mesh.generator=import", "body.mesh.generator: \"import\"", "\"ring\" or \"block\""),
         ("stage.1.friction.coefficient=0.5", "stage.1.friction", "the same in every stage"),
         ("sweep.mu=[0.1, 0.2]", "sweep", "--set"),
@@ -483,4 +483,39 @@ fn a_block_has_faces_but_no_inner_cylinder() {
         shown.starts_with("good.toml: body.mesh.size.2: \"0 m\" is not positive (from --set)"),
         "{shown}"
     );
+}
+
+#[test]
+fn holds_gradings_and_friction_laws_are_checked() {
+    let wrong = |sets: &[&str], key: &str, problem: &str| {
+        let shown = good(sets).unwrap_err().to_string();
+        assert!(shown.contains(key) && shown.contains(problem), "{sets:?}: {shown}");
+    };
+    let no_gravity = "gravity=[\"0 m/s2\", \"0 m/s2\", \"0 m/s2\"]";
+    wrong(&["hold=[{ nodes = \"all\" }]"], "hold.0.components", "missing");
+    wrong(&["hold=[{ nodes = \"x-min\", components = \"y\" }]"], "hold.0.nodes", "not known");
+    wrong(&["hold=[{ nodes = \"all\", components = \"yw\" }]"], "hold.0.components", "names no components");
+    wrong(&["hold=[{ nodes = \"all\", components = \"z\" }]"], "hold.0", "gravity acts along");
+    wrong(&[no_gravity, "hold=[{ nodes = \"all\", components = \"z\" }]"], "hold.0", "normal points along");
+    wrong(&[no_gravity, "hold=[{ nodes = \"all\", components = \"x\" }]"], "hold.0", "road moves along");
+    wrong(&["body.mesh.grading=[1, 0, 1]"], "body.mesh.grading.1", "not positive");
+    wrong(&["body.mesh.grading=[1, 1, 1e6]"], "body.mesh.grading.2", "differ by a factor");
+    wrong(&["body.mesh.fine_arc=20 deg"], "body.mesh.fine_arc", "all elements round the ring are equal");
+    wrong(&["body.mesh.fine_arc=400 deg", "body.mesh.grading=[4, 1, 1]"], "body.mesh.fine_arc", "whole turn");
+    wrong(&["friction={ law = \"viscous\", slope = 2 }"], "friction.slope", "no unit");
+    wrong(&["friction={ law = \"stribeck\", static = 1 }"], "friction.kinetic", "missing");
+    let falls = "friction={ law = \"pressure-velocity\", a = 0.1, b = -0.2, pressure = \"1 MPa\", c = 0, speed = \"1 m/s\" }";
+    wrong(&[falls], "friction.a", "would fall to");
+    let implicit = "stage.0.method=implicit";
+    let scheme = "stage.0.implicit={ scheme = \"static\" }";
+    let Err(Error::Unsupported { what, .. }) = Scene::parse(
+        &GOOD
+            .replace("settle = { kinetic_ratio = 1e-8, residual = 1e-4 }\n", "")
+            .replace("mass_damping = \"3000 1/s\"\n", ""),
+        "bad.toml",
+        &[implicit, scheme, "hold=[{ nodes = \"all\", components = \"y\" }]"].map(String::from),
+    ) else {
+        panic!("an implicit stage cannot hold components yet")
+    };
+    assert!(what.contains("hold"), "{what}");
 }

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use hexroll::scene::{
-    Body, Drive, Element, Field, Friction, InitialVelocity, Law, MeshSpec, Method, NodeSet, Picture, Rim,
-    Road, Scene, Snapshots,
+    Body, Drive, Element, Field, Friction, Hold, InitialVelocity, Law, MeshSpec, Method, NodeSet, Picture,
+    Rim, Road, Scene, Snapshots,
 };
 
 use crate::good;
@@ -119,4 +119,34 @@ fn a_displacement_needs_no_ramp_where_the_rim_already_is() {
     let stays = r#"stage.1.rim={ z = { displacement = "-2.2 mm" } }"#;
     let z = good(&[stays]).unwrap().stages[1].rim.z;
     assert!(matches!(z, Drive::Displacement { ramp: 0.0, .. }), "{z:?}");
+}
+
+#[test]
+fn holds_gradings_and_friction_laws_are_read() {
+    let scene = good(&[
+        "hold=[{ nodes = \"all\", components = \"y\" }]",
+        "body.mesh.grading=[4, 0.5, 1]",
+        "body.mesh.fine_arc=90 deg",
+        "friction={ law = \"pressure-velocity\", a = 0.5, b = 0.6, pressure = \"0.3 MPa\", c = 0.3, speed = \"0.5 m/s\" }",
+    ])
+    .unwrap();
+    assert_eq!(scene.holds, [Hold { nodes: NodeSet::All, components: [false, true, false] }]);
+    assert_eq!(scene.body.grading.ratio, [4.0, 0.5, 1.0]);
+    near(scene.body.grading.fine_arc, std::f64::consts::FRAC_PI_2);
+    let Some(Friction::PressureVelocity { a, b, pressure, c, speed }) = scene.friction else {
+        panic!("the fit")
+    };
+    for (got, expected) in [(a, 0.5), (b, 0.6), (pressure, 3e5), (c, 0.3), (speed, 0.5)] {
+        near(got, expected);
+    }
+    let law = |text: &str| good(&[text]).unwrap().friction;
+    let Some(Friction::Viscous { slope }) = law("friction={ law = \"viscous\", slope = \"2 s/m\" }") else {
+        panic!("viscous")
+    };
+    near(slope, 2.0);
+    let text = "friction={ law = \"stribeck\", static = 1.2, kinetic = 0.8, speed = \"100 mm/s\" }";
+    let Some(Friction::Stribeck { still, kinetic, speed, slope }) = law(text) else { panic!("Stribeck") };
+    for (got, expected) in [(still, 1.2), (kinetic, 0.8), (speed, 0.1), (slope, 0.0)] {
+        near(got, expected);
+    }
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::model::Model;
-use crate::scene::{Element, Law, Lumping, MeshSpec, NodeSet, Scene};
+use crate::scene::{Element, Grading, Law, Lumping, MeshSpec, NodeSet, Scene};
 
 /// The body as it is meshed.
 #[derive(Debug, Serialize)]
@@ -39,7 +39,7 @@ impl Body {
         let [G, kappa, rho] = [law.shear_modulus(), law.bulk_modulus(), scene.body.density];
         let mesh = &model.mesh;
         Body {
-            mesh: mesh_text(&scene.body.mesh),
+            mesh: mesh_text(&scene.body.mesh) + &grading_text(&scene.body.grading),
             elements: model.element_count(),
             nodes: model.node_count(),
             surface_nodes: mesh.surface.len(),
@@ -80,9 +80,21 @@ fn mesh_text(spec: &MeshSpec) -> String {
     }
 }
 
-fn set_name(set: NodeSet) -> &'static str {
+fn grading_text(grading: &Grading) -> String {
+    match *grading {
+        Grading { ratio: [1.0, 1.0, 1.0], .. } => String::new(),
+        Grading { ratio: [a, b, c], fine_arc: 0.0 } => format!(", sizes grow by {a}, {b}, {c}"),
+        Grading { ratio: [a, b, c], fine_arc } => {
+            format!(", sizes grow by {a} (outside {:.0} deg), {b}, {c}", fine_arc.to_degrees())
+        }
+    }
+}
+
+pub fn set_name(set: NodeSet) -> &'static str {
     match set {
         NodeSet::Inner => "inner cylinder",
+        NodeSet::Outer => "outer cylinder",
+        NodeSet::All => "every node",
         NodeSet::XMin => "face x-min",
         NodeSet::XMax => "face x-max",
         NodeSet::YMin => "face y-min",

@@ -93,11 +93,9 @@ pub fn pieces(scene: &Scene) -> Vec<Piece> {
         piece("viscosity", scene.body.viscosity.map(|eta| format!("Kelvin-Voigt, {eta} Pa s in shear"))),
         piece("mass damping", (!damped.is_empty()).then(|| format!("in stage {}", damped.join(", ")))),
         piece("gravity", (scene.gravity != [0.0; 3]).then(|| format!("{:?} m/s2", scene.gravity))),
+        piece("held components", (!scene.holds.is_empty()).then(|| holds(scene))),
         piece("road", scene.road.map(road)),
-        piece(
-            "friction",
-            scene.friction.map(|Friction::Coulomb { mu }| format!("Coulomb, mu = {mu}, stick and slip")),
-        ),
+        piece("friction", scene.friction.map(friction)),
         piece(
             "rim",
             scene
@@ -106,6 +104,31 @@ pub fn pieces(scene: &Scene) -> Vec<Piece> {
                 .map(|_| if free { "rigid, some components free" } else { "rigid, prescribed" }.into()),
         ),
     ]
+}
+
+fn holds(scene: &Scene) -> String {
+    let hold = |h: &crate::scene::Hold| {
+        let names: String =
+            ['x', 'y', 'z'].iter().zip(h.components).filter_map(|(c, on)| on.then_some(c)).collect();
+        format!("{names} of {}", super::body::set_name(h.nodes))
+    };
+    scene.holds.iter().map(hold).collect::<Vec<_>>().join(", ")
+}
+
+fn friction(law: Friction) -> String {
+    match law {
+        Friction::Coulomb { mu } => format!("Coulomb, mu = {mu}, stick and slip"),
+        Friction::Viscous { slope } => format!("viscous, mu = {slope} s/m v"),
+        Friction::Stribeck { still, kinetic, speed, slope } => {
+            format!(
+                "Stribeck, mu = {kinetic} + {:.3} exp(-(v/{speed} m/s)^2) + {slope} s/m v",
+                still - kinetic
+            )
+        }
+        Friction::PressureVelocity { a, b, pressure, c, speed } => {
+            format!("mu = {a} + {b} exp(-p/{pressure} Pa) + {c} exp(-v/{speed} m/s)")
+        }
+    }
 }
 
 fn road(Road::Plane { point, normal, velocity }: Road) -> String {

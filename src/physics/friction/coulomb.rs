@@ -8,6 +8,7 @@ pub struct Coulomb<S> {
 }
 
 impl<S: Real> Friction<S> for Coulomb<S> {
+    const CONSTANT: bool = true;
     #[inline(always)]
     fn coefficient(&self, _sliding: Sliding<S>) -> S {
         self.mu

@@ -2,8 +2,8 @@
 
 use crate::error::Result;
 use crate::scene::reader::{Bound, Item, Later, Table};
-use crate::scene::units::{ANGULAR_VELOCITY, DENSITY, LENGTH, PRESSURE, VELOCITY, VISCOSITY};
-use crate::scene::{Body, Element, Law, Lumping, MeshSpec};
+use crate::scene::units::{ANGLE, ANGULAR_VELOCITY, DENSITY, LENGTH, PRESSURE, VELOCITY, VISCOSITY};
+use crate::scene::{Body, Element, Grading, Law, Lumping, MeshSpec};
 
 const HOURGLASS: f64 = 0.15;
 
@@ -29,8 +29,10 @@ pub(super) fn body(item: &Item) -> Result<Body> {
     let table = item.table()?;
     table.only(&KEYS, &[])?;
     let (law, viscosity) = material(&table.section("material", "[body.material]")?.table()?)?;
+    let mesh_table = table.section("mesh", "[body.mesh]")?.table()?;
     Ok(Body {
-        mesh: mesh(&table.section("mesh", "[body.mesh]")?.table()?)?,
+        mesh: mesh(&mesh_table)?,
+        grading: grading(&mesh_table)?,
         offset: table.vector_or_zero("offset", &LENGTH)?,
         density: table.quantity("density", &DENSITY, Bound::Positive)?,
         law,
@@ -70,7 +72,8 @@ fn mesh(table: &Table) -> Result<MeshSpec> {
 }
 
 fn ring(table: &Table) -> Result<MeshSpec> {
-    table.only(&["generator", "outer_radius", "inner_radius", "width", "elements"], &[])?;
+    let keys = ["generator", "outer_radius", "inner_radius", "width", "elements", "grading", "fine_arc"];
+    table.only(&keys, &[])?;
     let outer_radius = table.quantity("outer_radius", &LENGTH, Bound::Positive)?;
     let inner_radius = table.quantity("inner_radius", &LENGTH, Bound::Positive)?;
     if inner_radius >= outer_radius {
@@ -88,12 +91,43 @@ fn ring(table: &Table) -> Result<MeshSpec> {
 }
 
 fn block(table: &Table) -> Result<MeshSpec> {
-    table.only(&["generator", "size", "elements"], &[])?;
+    table.only(&["generator", "size", "elements", "grading"], &[])?;
     let size = table.need("size", "[\"40 mm\", \"40 mm\", \"20 mm\"]")?;
     Ok(MeshSpec::Block {
         size: size.vector(&LENGTH, Bound::Positive)?,
         elements: elements(table, "[8, 8, 4]", 1)?,
     })
+}
+
+/// Ratios of element sizes; equal elements by default.
+fn grading(table: &Table) -> Result<Grading> {
+    /// Beyond this a single element would span most of the length.
+    const MOST: f64 = 1e4;
+    let ratio = table.get("grading").map_or(Ok([1.0; 3]), |item| {
+        item.three("[1, 0.2, 1]", |entry| {
+            let ratio = entry.number(Bound::Positive)?;
+            match (1.0 / MOST..=MOST).contains(&ratio) {
+                true => Ok(ratio),
+                false => Err(entry.error(
+                    format!("element sizes that differ by a factor of {ratio}"),
+                    format!("write a ratio between {} and {MOST}", 1.0 / MOST),
+                )),
+            }
+        })
+    })?;
+    let fine_arc = table.quantity_or("fine_arc", 0.0, &ANGLE, Bound::NotNegative)?;
+    if let Some(item) = table.get("fine_arc") {
+        if fine_arc >= std::f64::consts::TAU {
+            return Err(
+                item.error("a whole turn of equal elements", "remove the key, or write less than 360 deg")
+            );
+        }
+        if ratio[0] == 1.0 {
+            let problem = "all elements round the ring are equal";
+            return Err(item.error(problem, "remove the key, or write grading = [4, 1, 1]"));
+        }
+    }
+    Ok(Grading { ratio, fine_arc })
 }
 
 /// Elements in three directions, at least `first` in the first.

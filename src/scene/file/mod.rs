@@ -25,10 +25,14 @@
 //! inner_radius = "17 mm"
 //! width = "17.5 mm"
 //! elements = [44, 4, 5]               # circumference (>= 3), radius, width
+//! grading = [1, 1, 1]                 # default; element size at the far end over that at the near end: top over
+//!                                     # bottom, outer over inner cylinder, middle over side faces
+//! fine_arc = "40 deg"                 # default 0; elements within this arc about the bottom are equal
 //! # or
 //! generator = "block"                 # a corner at the origin, edges along +x, +y, +z
 //! size = ["40 mm", "40 mm", "20 mm"]
 //! elements = [8, 8, 4]                # along x, y, z
+//! grading = [1, 1, 1]                 # default; size of the last element over that of the first, along x, y, z
 //!
 //! [body.material]
 //! law = "mooney-rivlin"               # default | "neo-hookean" (g2 = 0) | "mooney-rivlin-eq4"
@@ -42,6 +46,10 @@
 //! [rim]                               # optional: these nodes are one rigid body
 //! nodes = "inner"                     # of a ring; of a block "x-min", "x-max", "y-min", ... "z-max"
 //!
+//! [[hold]]                            # optional, any number: components of nodes that stay at rest
+//! nodes = "y-min"                     # "all"; of a ring "inner", "outer", "y-min", "y-max"; of a block "x-min", ...
+//! components = "y"                    # some of x, y, z; neither gravity nor the road may push along them
+//!
 //! [road]                              # optional: rigid, the body stays on the side of the normal
 //! shape = "plane"                     # default
 //! point = ["0 m", "0 m", "0 m"]       # default the origin
@@ -51,6 +59,22 @@
 //! [friction]                          # optional, needs a road; constant over the scene
 //! law = "coulomb"                     # default
 //! coefficient = 1.0                   # mu >= 0; 0: frictionless
+//! # or
+//! law = "viscous"                     # mu = slope v
+//! slope = "0.5 s/m"
+//! # or
+//! law = "stribeck"                    # mu = kinetic + (static - kinetic) exp(-(v/speed)^2) + slope v
+//! static = 1.2
+//! kinetic = 0.8
+//! speed = "0.1 m/s"
+//! slope = "0 s/m"                     # default 0
+//! # or
+//! law = "pressure-velocity"           # mu = a + b exp(-p/pressure) + c exp(-v/speed), >= 0 everywhere; p: a node's
+//! a = 0.5                             #   normal force over its area, areas taken anew at every sample
+//! b = 0.6
+//! pressure = "0.3 MPa"
+//! c = 0.3
+//! speed = "0.5 m/s"
 //!
 //! [time_step]
 //! safety = 0.9                        # default; fraction of the critical step, > 0 (above 1: unstable)
@@ -116,13 +140,14 @@ use super::units::ACCELERATION;
 use super::{Scene, overrides};
 use crate::error::{Error, Result};
 
-const SECTIONS: [&str; 11] = [
+const SECTIONS: [&str; 12] = [
     "title",
     "source",
     "expected",
     "gravity",
     "body",
     "rim",
+    "hold",
     "road",
     "friction",
     "time_step",
@@ -174,10 +199,20 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
     let body = body::body(&table.section("body", "[body]")?)?;
     let rim = table.get("rim").map(|item| world::rim(&item, &body.mesh)).transpose()?;
     let road = table.get("road").map(|item| world::road(&item)).transpose()?;
+    let gravity = table.vector_or_zero("gravity", &ACCELERATION)?;
+    let holds = match table.get("hold") {
+        Some(item) => {
+            let holds = world::holds(&item, &body.mesh)?;
+            world::check_holds(&item, &holds, gravity, road.as_ref())?;
+            holds
+        }
+        None => Vec::new(),
+    };
     let friction = table.get("friction").map(|item| world::friction(&item, road.is_some())).transpose()?;
     let stages = stage::stages(&table.section("stage", "[[stage]]")?, rim.is_some(), road.as_ref())?;
     let output = output::output(&table.section("output", "[output]")?, &stages, road.is_some())?;
-    Ok(Scene {
+    let implicit = stages.iter().any(|s| matches!(s.method, super::Method::Implicit(_)));
+    let scene = Scene {
         file: file.into(),
         hash: hash(&document::canonical(root)),
         title: table.need("title", "\"one line that names the scene\"")?.text()?.into(),
@@ -185,13 +220,18 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
         expected: text("expected")?,
         body,
         rim,
+        holds,
         road,
         friction: friction.flatten(),
-        gravity: table.vector_or_zero("gravity", &ACCELERATION)?,
+        gravity,
         safety: table.get("time_step").map_or(Ok(0.9), |item| safety(&item.table()?))?,
         stages,
         output,
-    })
+    };
+    match scene.beyond_implicit() {
+        Some(gap) if implicit => Err(gap),
+        _ => Ok(scene),
+    }
 }
 
 fn safety(table: &Table) -> Result<f64> {

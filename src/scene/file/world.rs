@@ -1,9 +1,9 @@
-//! `[rim]`, `[road]`, `[friction]`.
+//! `[rim]`, `[[hold]]`, `[road]`, `[friction]`.
 
 use crate::error::Result;
 use crate::scene::reader::{Bound, Item, Later, Table};
-use crate::scene::units::{LENGTH, VELOCITY};
-use crate::scene::{Friction, MeshSpec, NodeSet, Rim, Road};
+use crate::scene::units::{LENGTH, PRESSURE, SLOWNESS, VELOCITY};
+use crate::scene::{Friction, Hold, MeshSpec, NodeSet, Rim, Road};
 
 /// A road may move in its plane only, up to this share of its speed (round-off of a tilted normal).
 const IN_PLANE: f64 = 1e-9;
@@ -19,29 +19,70 @@ const LATER_ROADS: [Later; 6] = [
     ("heights", PLANE_INSTEAD),
 ];
 
-const COULOMB_INSTEAD: &str = "use law = \"coulomb\" with a constant coefficient";
+const LATER_FRICTION: [Later; 1] =
+    [("table", "use law = \"coulomb\", \"viscous\", \"stribeck\" or \"pressure-velocity\"")];
 
-const LATER_FRICTION: [Later; 4] = [
-    ("viscous", COULOMB_INSTEAD),
-    ("stribeck", COULOMB_INSTEAD),
-    ("pressure-velocity", COULOMB_INSTEAD),
-    ("table", COULOMB_INSTEAD),
+const FACES: [(&str, NodeSet); 6] = [
+    ("x-min", NodeSet::XMin),
+    ("x-max", NodeSet::XMax),
+    ("y-min", NodeSet::YMin),
+    ("y-max", NodeSet::YMax),
+    ("z-min", NodeSet::ZMin),
+    ("z-max", NodeSet::ZMax),
 ];
 
 pub(super) fn rim(item: &Item, mesh: &MeshSpec) -> Result<Rim> {
     let table = item.table()?;
     table.only(&["nodes"], &[])?;
-    let faces = [
-        ("x-min", NodeSet::XMin),
-        ("x-max", NodeSet::XMax),
+    let inner = [("inner", NodeSet::Inner)];
+    let sets: &[_] = if matches!(mesh, MeshSpec::Ring { .. }) { &inner } else { &FACES };
+    Ok(Rim { nodes: table.need("nodes", &format!("\"{}\"", sets[0].0))?.choice(sets, &[])? })
+}
+
+/// Every `[[hold]]`.
+pub(super) fn holds(item: &Item, mesh: &MeshSpec) -> Result<Vec<Hold>> {
+    item.entries()?.iter().map(|entry| hold(entry, mesh)).collect()
+}
+
+fn hold(item: &Item, mesh: &MeshSpec) -> Result<Hold> {
+    let table = item.table()?;
+    table.only(&["nodes", "components"], &[])?;
+    let ring = [
+        ("all", NodeSet::All),
+        ("inner", NodeSet::Inner),
+        ("outer", NodeSet::Outer),
         ("y-min", NodeSet::YMin),
         ("y-max", NodeSet::YMax),
-        ("z-min", NodeSet::ZMin),
-        ("z-max", NodeSet::ZMax),
     ];
-    let inner = [("inner", NodeSet::Inner)];
-    let sets: &[_] = if matches!(mesh, MeshSpec::Ring { .. }) { &inner } else { &faces };
-    Ok(Rim { nodes: table.need("nodes", &format!("\"{}\"", sets[0].0))?.choice(sets, &[])? })
+    let block = [&[("all", NodeSet::All)], &FACES[..]].concat();
+    let sets: &[_] = if matches!(mesh, MeshSpec::Ring { .. }) { &ring } else { &block };
+    let nodes = table.need("nodes", "\"y-min\"")?.choice(sets, &[])?;
+    let item = table.need("components", "\"y\"")?;
+    let text = item.text()?;
+    let components = ['x', 'y', 'z'].map(|c| text.contains(c));
+    if text.is_empty() || !text.chars().all(|c| ('x'..='z').contains(&c)) {
+        return Err(item.error(format!("{text:?} names no components"), "write some of x, y, z, e.g. \"xy\""));
+    }
+    Ok(Hold { nodes, components })
+}
+
+/// A held component must not be pushed by what acts on whole vectors: gravity and the road.
+pub(super) fn check_holds(item: &Item, holds: &[Hold], gravity: [f64; 3], road: Option<&Road>) -> Result<()> {
+    for (hold, entry) in holds.iter().zip(item.entries()?) {
+        for (d, name) in ["x", "y", "z"].into_iter().enumerate().filter(|(d, _)| hold.components[*d]) {
+            let Some(what) = (match road {
+                _ if gravity[d] != 0.0 => Some("gravity acts"),
+                Some(Road::Plane { normal, .. }) if normal[d] != 0.0 => Some("the road's normal points"),
+                Some(Road::Plane { velocity, .. }) if velocity[d] != 0.0 => Some("the road moves"),
+                _ => None,
+            }) else {
+                continue;
+            };
+            let problem = format!("{what} along the held component {name}");
+            return Err(entry.error(problem, "hold another component, or hold these nodes with [rim]"));
+        }
+    }
+    Ok(())
 }
 
 pub(super) fn road(item: &Item) -> Result<Road> {
@@ -82,13 +123,58 @@ fn normal(road: &Table) -> Result<[f64; 3]> {
 /// `None` for mu = 0: a frictionless scene has no friction code.
 pub(super) fn friction(item: &Item, has_road: bool) -> Result<Option<Friction>> {
     let table = item.table()?;
-    if let Some(law) = table.get("law") {
-        law.choice(&[("coulomb", ())], &LATER_FRICTION)?;
-    }
-    table.only(&["law", "coefficient"], &[])?;
-    let mu = table.need("coefficient", "1.0")?.number(Bound::NotNegative)?;
+    type Read = fn(&Table) -> Result<Option<Friction>>;
+    let laws: [(&str, Read); 4] = [
+        ("coulomb", coulomb),
+        ("viscous", viscous),
+        ("stribeck", stribeck),
+        ("pressure-velocity", pressure_velocity),
+    ];
+    let read = table.get("law").map_or(Ok(laws[0].1), |law| law.choice(&laws, &LATER_FRICTION))?;
+    let law = read(&table)?;
     if !has_road {
         return Err(item.error("friction without a road", "add a section [road], or remove [friction]"));
     }
+    Ok(law)
+}
+
+fn coulomb(table: &Table) -> Result<Option<Friction>> {
+    table.only(&["law", "coefficient"], &[])?;
+    let mu = table.need("coefficient", "1.0")?.number(Bound::NotNegative)?;
     Ok((mu > 0.0).then_some(Friction::Coulomb { mu }))
+}
+
+fn viscous(table: &Table) -> Result<Option<Friction>> {
+    table.only(&["law", "slope"], &[])?;
+    Ok(Some(Friction::Viscous { slope: table.quantity("slope", &SLOWNESS, Bound::Positive)? }))
+}
+
+fn stribeck(table: &Table) -> Result<Option<Friction>> {
+    table.only(&["law", "static", "kinetic", "speed", "slope"], &[])?;
+    Ok(Some(Friction::Stribeck {
+        still: table.need("static", "1.2")?.number(Bound::Positive)?,
+        kinetic: table.need("kinetic", "0.8")?.number(Bound::NotNegative)?,
+        speed: table.quantity("speed", &VELOCITY, Bound::Positive)?,
+        slope: table.quantity_or("slope", 0.0, &SLOWNESS, Bound::NotNegative)?,
+    }))
+}
+
+fn pressure_velocity(table: &Table) -> Result<Option<Friction>> {
+    table.only(&["law", "a", "b", "pressure", "c", "speed"], &[])?;
+    let number = |key, example| table.need(key, example).and_then(|item| item.number(Bound::Any));
+    let (a, b, c) = (number("a", "0.5")?, number("b", "0.6")?, number("c", "0.3")?);
+    let least = a + b.min(0.0) + c.min(0.0);
+    if least < 0.0 {
+        return Err(table.at("a").error(
+            format!("the coefficient would fall to {least}"),
+            "write a, b, c that stay positive at every pressure and speed",
+        ));
+    }
+    Ok(Some(Friction::PressureVelocity {
+        a,
+        b,
+        pressure: table.quantity("pressure", &PRESSURE, Bound::Positive)?,
+        c,
+        speed: table.quantity("speed", &VELOCITY, Bound::Positive)?,
+    }))
 }

@@ -1,0 +1,8 @@
+// Held components of nodes: their force is taken by whatever holds them. Bit d of a node's word: component d.
+
+@group(0) @binding(14) var<storage, read> held: array<u32>;
+
+fn moving(n: u32, f: vec3f) -> vec3f {
+    let bits = held[n];
+    return select(f, vec3f(0.0), vec3<bool>((bits & 1u) != 0u, (bits & 2u) != 0u, (bits & 4u) != 0u));
+}

@@ -1,0 +1,224 @@
+//! `hexroll report`.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::{Args, Subcommand};
+
+use crate::report::accuracy::{self, Matrix, Problem};
+use crate::report::page::{self, Finding};
+use crate::report::{Case, stability, verification};
+use crate::scene::Element;
+use crate::{Error, Result};
+
+pub const HELP: &str = "\
+Nothing is cached: every number is computed now, on this machine, and the page says on which.
+
+Examples:
+  hexroll report verification
+  hexroll report verification --only hertz_line --only carter --out -
+  hexroll report verification --everyday";
+
+#[derive(Debug, Args)]
+pub struct ReportArgs {
+    #[command(subcommand)]
+    kind: Kind,
+}
+
+#[derive(Debug, Subcommand)]
+enum Kind {
+    /// Claims against closed forms and other codes: docs/verification.md
+    Verification(CasesArgs),
+    /// Speed against error for every engine, formulation, mesh and step: docs/accuracy.md
+    Accuracy(AccuracyArgs),
+    /// Hard cases and the largest safety factor each survives: docs/stability.md
+    Stability(CasesArgs),
+}
+
+/// Which cases, and where the page goes.
+/// What is measured.
+#[derive(Debug, Args)]
+struct AccuracyArgs {
+    /// Problems: static, straight, slip-5, wave; default all
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
+    /// Finest mesh that is measured, as a multiple of 44 x 4 x 5; the reference takes one more
+    #[arg(long, value_name = "N", default_value_t = 2)]
+    finest: usize,
+    /// Measure the GPU engine too
+    #[arg(long)]
+    gpu: bool,
+    /// Threads of the CPU engine; 0: one a core
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+    /// Folder for accuracy.md, accuracy.csv and accuracy.png
+    #[arg(long, value_name = "DIR", default_value = "docs")]
+    out: PathBuf,
+}
+
+#[derive(Debug, Clone, Args)]
+struct CasesArgs {
+    /// Only this case; may be repeated
+    #[arg(long, value_name = "CASE")]
+    only: Vec<String>,
+    /// Only the cases of the everyday suite
+    #[arg(long)]
+    everyday: bool,
+    /// File to write, or - for the terminal
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+pub fn execute(args: &ReportArgs) -> Result<()> {
+    match &args.kind {
+        Kind::Verification(args) => {
+            let intro = "Every number is the program's own of this run; what it should be is a closed form, \
+                         another code's number or a conservation law.";
+            cases(args, verification::CASES, "Verification", intro, "verification")
+        }
+        Kind::Accuracy(args) => accuracy(args),
+        Kind::Stability(args) => hard_cases(args),
+    }
+}
+
+fn cases(args: &CasesArgs, all: &[Case], title: &str, intro: &str, kind: &str) -> Result<()> {
+    let chosen = chosen(args, all)?;
+    let findings: Vec<Finding> = chosen.into_iter().map(find).collect();
+    let whole = args.only.is_empty() && !args.everyday;
+    let command = format!("hexroll report {kind}{}", if args.everyday { " --everyday" } else { "" });
+    let text = page::page(title, intro, &command, &findings);
+    // A part of the cases does not replace the page of all.
+    let default = if whole { PathBuf::from(format!("docs/{kind}.md")) } else { PathBuf::from("-") };
+    write(args.out.as_deref().unwrap_or(&default), &text)?;
+    let failed: Vec<&str> = findings.iter().filter(|f| !f.holds()).map(|f| f.case.name).collect();
+    if failed.is_empty() { Ok(()) } else { Err(Error::Claims { cases: failed.join(", ") }) }
+}
+
+/// Hard cases whose limit is searched, then those with claims of their own.
+fn hard_cases(args: &CasesArgs) -> Result<()> {
+    let hard: Vec<&stability::Hard> = (stability::HARD.iter())
+        .filter(|h| args.only.is_empty() || args.only.iter().any(|name| name == h.name))
+        .collect();
+    let own = CasesArgs {
+        only: args.only.iter().filter(|n| hard.iter().all(|h| h.name != **n)).cloned().collect(),
+        ..args.clone()
+    };
+    let cases = if own.only.is_empty() && !args.only.is_empty() {
+        Vec::new()
+    } else {
+        chosen(&own, stability::CASES)?
+    };
+    let mut failed = Vec::new();
+    let mut rows = Vec::new();
+    for case in hard {
+        let limit = stability::find(case)?;
+        eprintln!("{}  {}", if case.holds(&limit) { "holds" } else { "FAILS" }, case.name);
+        if !case.holds(&limit) {
+            failed.push(case.name);
+        }
+        rows.push(case.cells(&limit));
+    }
+    let findings: Vec<Finding> = cases.into_iter().map(find).collect();
+    failed.extend(findings.iter().filter(|f| !f.holds()).map(|f| f.case.name));
+    let body = format!(
+        "Errors are of the run at the default safety factor of 0.9, over its largest energy term: of the accumulated \
+         work (round-off) and of the stored energy (the step). The safety factor is raised through 0.97, 1.03, 1.1, \
+         1.3 until a run fails; where 0.9 fails, 0.45 and 0.2 are tried. A run that ends with energies that do not add \
+         up counts as a failure of the program, not of the scene.\n\n{}\n{}",
+        page::table(&HARD_HEAD, rows),
+        page::sections(&findings)
+    );
+    let intro = "Where the program stops being stable, and what it says then.";
+    let text = page::titled("Stability", intro, "hexroll report stability", &body);
+    let whole = args.only.is_empty() && !args.everyday;
+    let default = if whole { PathBuf::from("docs/stability.md") } else { PathBuf::from("-") };
+    write(args.out.as_deref().unwrap_or(&default), &text)?;
+    if failed.is_empty() { Ok(()) } else { Err(Error::Claims { cases: failed.join(", ") }) }
+}
+
+const HARD_HEAD: [&str; 9] = [
+    "case",
+    "steps",
+    "work error",
+    "stored-energy error",
+    "allowed",
+    "smallest det F",
+    "stable up to safety",
+    "what ends it beyond",
+    "pass",
+];
+
+/// Speed against error.
+fn accuracy(args: &AccuracyArgs) -> Result<()> {
+    let known: Vec<&str> = Problem::ALL.iter().map(|p| p.name()).collect();
+    if let Some(unknown) = args.only.iter().find(|name| !known.contains(&name.as_str())) {
+        return Err(no_such("problem", unknown, &known));
+    }
+    let wanted = |p: &Problem| args.only.is_empty() || args.only.iter().any(|name| name == p.name());
+    let matrix = Matrix {
+        problems: Problem::ALL.into_iter().filter(wanted).collect(),
+        elements: vec![Element::Q1p0, Element::UniformGradient { hourglass: 0.15 }, Element::Full],
+        meshes: (1..=args.finest.max(1)).collect(),
+        safeties: vec![0.9, 0.45],
+        threads: args.threads,
+        gpu: args.gpu,
+    };
+    let rows = accuracy::measure(&matrix, |row| eprintln!("{row}"))?;
+    let gpu = if args.gpu { " --gpu" } else { "" };
+    let command = format!("hexroll report accuracy --finest {}{gpu} --threads {}", args.finest, args.threads);
+    let intro = "What an error costs. Errors are against double precision extrapolated from the two finest meshes \
+                 (q1p0, second order), or d'Alembert's wave: *discretisation* is what double precision with a third of \
+                 the step leaves, *time step* is what the step adds, *rounding* is what the precision adds. Wall \
+                 time is of the whole run, pressing included, without output. Elastic rolling and 45 degrees do not \
+                 converge with the mesh and are not here.";
+    let body = format!(
+        "![wall time against error](accuracy.png)\n\nThe fastest setting within an error:\n\n{}\n{}",
+        accuracy::advice(&rows),
+        accuracy::markdown(&rows)
+    );
+    write(&args.out.join("accuracy.md"), &page::titled("Speed against error", intro, &command, &body))?;
+    write(&args.out.join("accuracy.csv"), &accuracy::csv(&rows))?;
+    let picture = args.out.join("accuracy.png");
+    let problem = |e: image::ImageError| Error::Picture { problem: e.to_string() };
+    accuracy::picture(&rows)?.save(&picture).map_err(problem)
+}
+
+fn no_such(what: &str, given: &str, known: &[&str]) -> Error {
+    Error::Scene {
+        file: "command line".into(),
+        line: None,
+        key: "--only".into(),
+        problem: format!("there is no {what} {given:?}"),
+        remedy: format!("known: {}", known.join(", ")),
+    }
+}
+
+fn chosen<'a>(args: &CasesArgs, all: &'a [Case]) -> Result<Vec<&'a Case>> {
+    if let Some(unknown) = args.only.iter().find(|name| all.iter().all(|c| c.name != **name)) {
+        let names: Vec<&str> = all.iter().map(|c| c.name).collect();
+        return Err(no_such("case", unknown, &names));
+    }
+    let wanted = |c: &&Case| args.only.is_empty() || args.only.iter().any(|name| name == c.name);
+    Ok(all.iter().filter(wanted).filter(|c| c.everyday || !args.everyday).collect())
+}
+
+fn find(case: &Case) -> Finding<'_> {
+    let start = Instant::now();
+    let claims = (case.run)().map_err(|e| e.to_string());
+    let finding = Finding { case, claims, wall: start.elapsed() };
+    let word = if finding.holds() { "holds" } else { "FAILS" };
+    eprintln!("{word}  {} ({:.1} s)", case.name, finding.wall.as_secs_f64());
+    finding
+}
+
+fn write(path: &Path, text: &str) -> Result<()> {
+    if path == Path::new("-") {
+        return super::print(text);
+    }
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(Error::io(folder, "make the folder"))?;
+    }
+    std::fs::write(path, text).map_err(Error::io(path, "write the report"))?;
+    eprintln!("wrote {}", path.display());
+    Ok(())
+}

@@ -1,0 +1,102 @@
+//! The problems that are measured, and the settings they are measured with.
+
+use crate::report::bench::{HELD, explicit, press, wheel};
+use crate::scene::*;
+
+/// What is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Problem {
+    /// The paper's wheel pressed by 2.2 mm, mu = 1: vertical force.
+    Static,
+    /// Pressed and rolled straight, 20 Pa s: longitudinal force, mean of 40 to 50 ms.
+    Straight,
+    /// The same at 5 degrees: side force.
+    Slip5,
+    /// A pulse of dilatation in a bar: rms displacement.
+    Wave,
+}
+
+impl Problem {
+    pub const ALL: [Problem; 4] = [Problem::Static, Problem::Straight, Problem::Slip5, Problem::Wave];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Problem::Static => "static",
+            Problem::Straight => "straight",
+            Problem::Slip5 => "slip-5",
+            Problem::Wave => "wave",
+        }
+    }
+
+    /// What the error is an error of.
+    pub fn quantity(self) -> &'static str {
+        match self {
+            Problem::Static => "vertical force",
+            Problem::Straight => "longitudinal force",
+            Problem::Slip5 => "side force",
+            Problem::Wave => "displacement",
+        }
+    }
+}
+
+/// Who computes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Machine {
+    Cpu64,
+    Cpu32,
+    Gpu32,
+    GpuPairs,
+}
+
+impl Machine {
+    pub fn name(self) -> &'static str {
+        match self {
+            Machine::Cpu64 => "cpu f64",
+            Machine::Cpu32 => "cpu f32",
+            Machine::Gpu32 => "gpu f32",
+            Machine::GpuPairs => "gpu f32+",
+        }
+    }
+}
+
+/// One cell of the matrix.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setting {
+    pub machine: Machine,
+    pub element: Element,
+    /// Refinement: 1 is 44 x 4 x 5 elements, or a bar of 50.
+    pub mesh: usize,
+    pub safety: f64,
+}
+
+/// Name of a formulation in scenes.
+pub fn element_name(element: Element) -> &'static str {
+    match element {
+        Element::Q1p0 => "q1p0",
+        Element::Full => "full",
+        Element::UniformGradient { .. } => "uniform-gradient",
+    }
+}
+
+/// Duration of the rolling stage, and the part at its end that is averaged [s].
+pub const ROLL: f64 = 0.05;
+pub const MEAN: f64 = 0.01;
+
+/// The wheel of a problem.
+pub fn scene(problem: Problem, setting: &Setting) -> Scene {
+    let m = setting.mesh;
+    let mut scene = wheel([44 * m, 4 * m, 5 * m], 1.0);
+    scene.body.element = setting.element;
+    scene.safety = setting.safety;
+    let down = press(Drive::Displacement { to: -2.2e-3, ramp: 0.02 });
+    let at = |to: f64| Drive::Velocity { to, ramp: 0.0 };
+    let [x, y] = if problem == Problem::Slip5 { [2.5801, 0.2257] } else { [2.59, 0.0] };
+    let rim = RimMotion { x: at(x), y: at(y), spin: at(70.0), ..HELD };
+    scene.stages = vec![down];
+    if problem != Problem::Static {
+        scene.body.viscosity = Some(20.0);
+        let start = Some(InitialVelocity::Rim);
+        scene.stages.push(Stage { initial_velocity: start, rim, ..explicit("roll", ROLL) });
+    }
+    scene
+}

@@ -1,0 +1,148 @@
+//! The picture: wall time against error, a panel a problem, the front of the fastest drawn through.
+
+use image::{Rgba, RgbaImage};
+
+use super::cases::{Machine, Problem};
+use super::runs::Row;
+use crate::Result;
+use crate::render::canvas::{Anchor, Canvas, Fonts, Weight};
+use crate::scene::Element;
+
+const PANEL: [f64; 2] = [560.0, 430.0];
+const HEAD: f64 = 84.0;
+const INK: [u8; 3] = [40, 44, 52];
+const PALE: [u8; 3] = [222, 225, 230];
+
+fn colour(element: Element) -> [u8; 3] {
+    match element {
+        Element::Q1p0 => [31, 105, 180],
+        Element::UniformGradient { .. } => [214, 110, 20],
+        Element::Full => [110, 110, 118],
+    }
+}
+
+/// Draws every row that has an error.
+///
+/// # Errors
+/// [`Error::Picture`](crate::Error::Picture) if the canvas cannot be made.
+pub fn picture(rows: &[Row]) -> Result<RgbaImage> {
+    let shown: Vec<Problem> =
+        Problem::ALL.into_iter().filter(|p| rows.iter().any(|r| r.problem == *p)).collect();
+    let columns = shown.len().clamp(1, 2);
+    let lines = shown.len().div_ceil(columns).max(1);
+    let size = [PANEL[0] * columns as f64, HEAD + PANEL[1] * lines as f64].map(|v| v as u32);
+    let fonts = Fonts::new()?;
+    let blank = RgbaImage::from_pixel(size[0], size[1], Rgba([255; 4]));
+    let mut canvas = Canvas::new(blank, &fonts, 1.0)?;
+    legend(&mut canvas);
+    for (k, problem) in shown.into_iter().enumerate() {
+        let corner = [(k % columns) as f64 * PANEL[0], HEAD + (k / columns) as f64 * PANEL[1]];
+        let own: Vec<&Row> = rows.iter().filter(|r| r.problem == problem && r.error > 0.0).collect();
+        Panel::new(corner, &own).draw(&mut canvas, problem, &own);
+    }
+    canvas.finish()
+}
+
+fn legend(canvas: &mut Canvas) {
+    canvas.text("Wall time against error", [24.0, 28.0], Anchor::Left, Weight::Medium, 20.0, INK, 0.0);
+    let mut x = 24.0;
+    let names = [
+        ("q1p0", Element::Q1p0),
+        ("uniform-gradient", Element::UniformGradient { hourglass: 0.15 }),
+        ("full", Element::Full),
+    ];
+    for (name, element) in names {
+        canvas.disc([x + 6.0, 58.0], 6.0, colour(element), None);
+        canvas.text(name, [x + 18.0, 58.0], Anchor::Left, Weight::Regular, 14.0, INK, 0.0);
+        x += 40.0 + 8.0 * name.len() as f64;
+    }
+    for (name, machine) in [("f64", Machine::Cpu64), ("f32", Machine::Cpu32), ("GPU", Machine::Gpu32)] {
+        mark(canvas, [x + 6.0, 58.0], machine, INK);
+        canvas.text(name, [x + 18.0, 58.0], Anchor::Left, Weight::Regular, 14.0, INK, 0.0);
+        x += 62.0;
+    }
+    canvas.line(&[[x, 58.0], [x + 24.0, 58.0]], 1.5, INK, Some([4.0, 3.0]));
+    canvas.text("fastest for its error", [x + 32.0, 58.0], Anchor::Left, Weight::Regular, 14.0, INK, 0.0);
+}
+
+/// f64 discs, f32 rings, GPU squares (pairs: open ones).
+fn mark(canvas: &mut Canvas, at: [f64; 2], machine: Machine, colour: [u8; 3]) {
+    let square = |r: f64| [[-r, -r], [r, -r], [r, r], [-r, r]].map(|[x, y]: [f64; 2]| [at[0] + x, at[1] + y]);
+    match machine {
+        Machine::Cpu64 => canvas.disc(at, 5.5, colour, None),
+        Machine::Cpu32 => canvas.disc(at, 4.5, [255; 3], Some((2.0, colour))),
+        Machine::Gpu32 => canvas.polygon(&square(5.0), colour, None),
+        Machine::GpuPairs => canvas.polygon(&square(4.5), [255; 3], Some((2.0, colour))),
+    }
+}
+
+/// A panel's place and its decades.
+struct Panel {
+    corner: [f64; 2],
+    x: [f64; 2],
+    y: [f64; 2],
+}
+
+impl Panel {
+    fn new(corner: [f64; 2], rows: &[&Row]) -> Panel {
+        let decades = |f: fn(&Row) -> f64| {
+            let logs = || rows.iter().map(|r| f(r).log10());
+            let low = logs().fold(f64::INFINITY, f64::min).floor();
+            let high = logs().fold(f64::NEG_INFINITY, f64::max).ceil();
+            if low.is_finite() && high > low { [low, high] } else { [-1.0, 0.0] }
+        };
+        Panel { corner, x: decades(|r| r.wall), y: decades(|r| r.error) }
+    }
+
+    fn at(&self, wall: f64, error: f64) -> [f64; 2] {
+        let share = |v: f64, [low, high]: [f64; 2]| (v.log10() - low) / (high - low);
+        [
+            self.corner[0] + 76.0 + (PANEL[0] - 104.0) * share(wall, self.x),
+            self.corner[1] + PANEL[1] - 64.0 - (PANEL[1] - 108.0) * share(error, self.y),
+        ]
+    }
+
+    fn draw(&self, canvas: &mut Canvas, problem: Problem, rows: &[&Row]) {
+        let title = format!("{}: error of the {}", problem.name(), problem.quantity());
+        let [left, top] = self.corner;
+        canvas.text(&title, [left + 76.0, top + 18.0], Anchor::Left, Weight::Medium, 15.0, INK, 0.0);
+        let power = |k: f64| 10.0f64.powf(k);
+        let mut k = self.x[0];
+        while k <= self.x[1] {
+            let [low, high] = [power(self.y[0]), power(self.y[1])].map(|e| self.at(power(k), e));
+            canvas.line(&[low, high], 1.0, PALE, None);
+            let label = format!("{} s", power(k));
+            canvas.text(&label, [low[0], low[1] + 18.0], Anchor::Middle, Weight::Regular, 13.0, INK, 0.0);
+            k += 1.0;
+        }
+        let mut k = self.y[0];
+        while k <= self.y[1] {
+            let [low, high] = [power(self.x[0]), power(self.x[1])].map(|w| self.at(w, power(k)));
+            canvas.line(&[low, high], 1.0, PALE, None);
+            let percent = 100.0 * power(k);
+            let label = if percent >= 1e-3 { format!("{percent} %") } else { format!("{percent:.0e} %") };
+            canvas.text(&label, [low[0] - 8.0, low[1]], Anchor::Right, Weight::Regular, 13.0, INK, 0.0);
+            k += 1.0;
+        }
+        let front: Vec<[f64; 2]> = front(rows).iter().map(|r| self.at(r.wall, r.error)).collect();
+        if front.len() > 1 {
+            canvas.line(&front, 1.5, INK, Some([4.0, 3.0]));
+        }
+        for row in rows {
+            mark(canvas, self.at(row.wall, row.error), row.setting.machine, colour(row.setting.element));
+        }
+    }
+}
+
+/// Rows that no other beats in both time and error, fastest first.
+fn front<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
+    let mut sorted = rows.to_vec();
+    sorted.sort_by(|a, b| a.wall.total_cmp(&b.wall));
+    let mut best = f64::INFINITY;
+    sorted.retain(|r| {
+        let better = r.error < best;
+        best = best.min(r.error);
+        better
+    });
+    sorted
+}

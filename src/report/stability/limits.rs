@@ -1,0 +1,292 @@
+//! Runs at the default safety factor and at growing ones, until one fails.
+
+use crate::model::Model;
+use crate::report::bench::{GROUND, HELD, block, explicit, press, simulate_model, wheel};
+use crate::report::claim::short;
+use crate::scene::*;
+use crate::{Error, Result};
+
+/// A hard case.
+pub struct Hard {
+    pub name: &'static str,
+    pub title: &'static str,
+    /// Scene and model, or why there is none.
+    pub build: fn() -> Result<(Scene, Model)>,
+    /// Largest error of the stored-energy balance at the default settings, over the largest energy term, and why.
+    pub energy: f64,
+    /// Whether it is meant to fail at the default settings: then the diagnosis is what counts.
+    pub fails: bool,
+}
+
+/// What was found of a hard case.
+#[derive(Debug, Clone)]
+pub struct Limit {
+    /// Largest safety factor that ended well, of those tried; `None`: not even the smallest.
+    pub stable_up_to: Option<f64>,
+    /// Diagnosis of the first run that did not.
+    pub beyond: Option<String>,
+    /// At the default settings, over the largest energy term: errors of the work and of the stored-energy balance.
+    pub work_error: f64,
+    pub stored_error: f64,
+    pub min_jacobian: f64,
+    pub steps: u64,
+    /// A run that ended without an error, but with energies that do not add up.
+    pub silent: Option<String>,
+}
+
+impl Hard {
+    /// Whether what was found is what was meant: no garbage without a word, a diagnosis wherever it fails, and at the
+    /// default settings balances that close.
+    pub fn holds(&self, limit: &Limit) -> bool {
+        let ends = limit.stable_up_to.is_some_and(|s| s >= UP[0]);
+        let balanced = limit.work_error < 1e-10 && limit.stored_error <= self.energy;
+        limit.silent.is_none() && if self.fails { !ends && limit.beyond.is_some() } else { ends && balanced }
+    }
+
+    /// Cells of a table row: case, steps, errors, smallest det F, limit, diagnosis, pass.
+    pub fn cells(&self, limit: &Limit) -> Vec<String> {
+        let percent = |v: f64| if v.is_nan() { "-".into() } else { format!("{} %", short(100.0 * v)) };
+        let up_to = match limit.stable_up_to {
+            Some(s) if s == UP[UP.len() - 1] => format!("{s} and more"),
+            Some(s) => s.to_string(),
+            None => format!("not at {}", DOWN[DOWN.len() - 1]),
+        };
+        let pass = if self.holds(limit) { "yes" } else { "**no**" };
+        vec![
+            self.title.into(),
+            limit.steps.to_string(),
+            if limit.work_error.is_nan() { "-".into() } else { format!("{:.0e}", limit.work_error) },
+            percent(limit.stored_error),
+            percent(self.energy),
+            if limit.min_jacobian.is_nan() { "-".into() } else { short(limit.min_jacobian) },
+            up_to,
+            limit.beyond.clone().unwrap_or_else(|| "-".into()),
+            pass.into(),
+        ]
+    }
+}
+
+/// Safety factors tried, the default first. Halves before giving up on a case that fails at 0.9.
+const UP: [f64; 5] = [0.9, 0.97, 1.03, 1.1, 1.3];
+const DOWN: [f64; 2] = [0.45, 0.2];
+/// Stored energy that is off by more is garbage [of the largest energy term].
+const GARBAGE: f64 = 0.25;
+
+/// Searches the limit.
+///
+/// # Errors
+/// A scene that cannot be built.
+pub fn find(hard: &Hard) -> Result<Limit> {
+    let (scene, model) = (hard.build)()?;
+    let mut limit = Limit {
+        stable_up_to: None,
+        beyond: None,
+        work_error: f64::NAN,
+        stored_error: f64::NAN,
+        min_jacobian: f64::NAN,
+        steps: 0,
+        silent: None,
+    };
+    for safety in UP {
+        if !attempt(&scene, &model, safety, &mut limit) {
+            break;
+        }
+    }
+    if limit.stable_up_to.is_none() {
+        let beyond = limit.beyond.take();
+        for safety in DOWN {
+            if attempt(&scene, &model, safety, &mut limit) {
+                break;
+            }
+        }
+        limit.beyond = beyond;
+    }
+    Ok(limit)
+}
+
+/// Runs at a safety factor; whether it ended well.
+fn attempt(scene: &Scene, model: &Model, safety: f64, limit: &mut Limit) -> bool {
+    let scene = Scene { safety, ..scene.clone() };
+    match simulate_model(&scene, model.clone(), crate::cpu::Precision::F64) {
+        Ok(outcome) => {
+            let ledger = &outcome.totals.ledger;
+            let stored = ledger.worst_stored_balance / ledger.largest_term;
+            if limit.work_error.is_nan() {
+                limit.work_error = ledger.worst_balance / ledger.largest_term;
+                limit.stored_error = stored;
+                limit.steps = outcome.totals.steps;
+                limit.min_jacobian =
+                    outcome.samples.iter().map(|s| s.min_jacobian).fold(f64::INFINITY, f64::min);
+            }
+            // NaN is garbage too.
+            if stored.is_nan() || stored >= GARBAGE {
+                let percent = short(100.0 * stored);
+                limit.silent = Some(format!("safety {safety}: ends, stored energy off by {percent} %"));
+                limit.beyond = limit.silent.clone();
+                return false;
+            }
+            limit.stable_up_to = Some(safety);
+            true
+        }
+        Err(error) => {
+            limit.beyond = Some(diagnosis(safety, &error));
+            false
+        }
+    }
+}
+
+/// The first sentence of an error.
+fn diagnosis(safety: f64, error: &Error) -> String {
+    let text = error.to_string();
+    let sentence = text.split(';').next().unwrap_or(&text);
+    format!("safety {safety}: {sentence}")
+}
+
+fn meshed(scene: Scene) -> Result<(Scene, Model)> {
+    let model = Model::new(&scene)?;
+    Ok((scene, model))
+}
+
+/// A coarse wheel (24 x 3 x 3), pressed by `depth` and rolled for 20 ms at `velocity` and `omega`.
+fn rolled(mu: f64, eta: f64, depth: f64, velocity: [f64; 2], omega: f64) -> Scene {
+    let mut scene = wheel([24, 3, 3], mu);
+    scene.body.viscosity = (eta > 0.0).then_some(eta);
+    let at = |to: f64| Drive::Velocity { to, ramp: 0.0 };
+    let rim = RimMotion { x: at(velocity[0]), y: at(velocity[1]), spin: at(omega), ..HELD };
+    let down = press(Drive::Displacement { to: -depth, ramp: 0.02 });
+    let roll = Stage { initial_velocity: Some(InitialVelocity::Rim), rim, ..explicit("roll", 0.02) };
+    scene.stages = vec![down, roll];
+    scene
+}
+
+const SPEED: f64 = 2.59;
+
+/// A viscous wheel at 5 % driving slip.
+fn usual(mu: f64, velocity: [f64; 2], omega: f64) -> Result<(Scene, Model)> {
+    meshed(rolled(mu, 20.0, 2.2e-3, velocity, omega))
+}
+
+fn at_angle(degrees: f64) -> [f64; 2] {
+    let (sin, cos) = f64::to_radians(degrees).sin_cos();
+    [SPEED * cos, SPEED * sin]
+}
+
+fn incompressible() -> Result<(Scene, Model)> {
+    let mut scene = rolled(1.0, 20.0, 2.2e-3, [SPEED, 0.0], 70.0);
+    scene.body.law = Law::NeoHookean { g0: 1e4 * crate::report::bench::G, g1: crate::report::bench::G };
+    scene.stages[1].duration = 2e-3;
+    scene.stages[0].rim.z = Drive::Displacement { to: -2.2e-3, ramp: 5e-3 };
+    meshed(scene)
+}
+
+/// Pressed without rolling.
+fn pressed(depth: f64) -> Result<(Scene, Model)> {
+    let mut scene = rolled(1.0, 20.0, depth, [0.0; 2], 0.0);
+    scene.stages.truncate(1);
+    scene.stages[0].method = Method::Explicit;
+    scene.stages[0].duration = 0.03;
+    meshed(scene)
+}
+
+/// A block thrown at the road.
+fn thrown(speed: f64, tumble: [f64; 3]) -> Scene {
+    let mut scene = block([0.03, 0.02, 0.02], [6, 4, 4]);
+    scene.body.offset = [0.0, 0.0, 0.01];
+    scene.body.velocity = [0.3 * speed, 0.0, -speed];
+    scene.body.angular_velocity = tumble;
+    scene.body.viscosity = Some(20.0);
+    scene.road = Some(GROUND);
+    scene.friction = Some(Friction::Coulomb { mu: 0.8 });
+    scene.output.sample = 1e-4;
+    scene.stages[0].duration = 0.03 / speed + 2e-3;
+    scene
+}
+
+/// The pressed block of a bad mesh: `shape` moves its reference nodes.
+fn misshapen(elements: [usize; 3], shape: impl Fn([f64; 3]) -> [f64; 3]) -> Result<(Scene, Model)> {
+    let mut scene = block([0.04, 0.02, 0.02], elements);
+    scene.rim = Some(Rim { nodes: NodeSet::ZMax });
+    scene.road = Some(GROUND);
+    scene.friction = Some(Friction::Coulomb { mu: 0.5 });
+    scene.body.viscosity = Some(1.0);
+    scene.output.sample = 1e-4;
+    let z = Drive::Displacement { to: -2e-3, ramp: 3e-3 };
+    scene.stages = vec![Stage { rim: RimMotion { z, ..HELD }, ..explicit("press", 5e-3) }];
+    let mut mesh = Model::new(&scene)?.mesh;
+    mesh.nodes.iter_mut().for_each(|x| *x = shape(*x));
+    let model = Model::from_mesh(mesh, &scene.body).map_err(|element| Error::Scene {
+        file: "report".into(),
+        line: None,
+        key: "body.mesh".into(),
+        problem: format!("element {element} is inside out"),
+        remedy: "another shape".into(),
+    })?;
+    Ok((scene, model))
+}
+
+fn flat() -> Result<(Scene, Model)> {
+    // 4 x 4 x 40: elements of 10 x 5 x 0.5 mm.
+    misshapen([4, 4, 40], |x| x)
+}
+
+/// Sheared until the angle between two faces is 10 degrees.
+fn skewed() -> Result<(Scene, Model)> {
+    let lean = 1.0 / f64::to_radians(10.0).tan();
+    misshapen([8, 4, 4], |x| [x[0] + lean * x[1], x[1], x[2]])
+}
+
+/// One element a twentieth as long as its neighbours.
+fn tiny() -> Result<(Scene, Model)> {
+    misshapen([8, 4, 4], |x| {
+        let plane = (x[0] / 0.005).round() as usize;
+        [if plane == 4 { x[0] - 0.95 * 0.005 } else { x[0] }, x[1], x[2]]
+    })
+}
+
+/// Stretched and sheared far on one-point elements, which resist bending by hourglass stiffness alone.
+fn hourglass() -> Result<(Scene, Model)> {
+    let mut scene = rolled(1.0, 20.0, 4e-3, at_angle(20.0), 70.0);
+    scene.body.element = Element::UniformGradient { hourglass: 0.15 };
+    meshed(scene)
+}
+
+/// First contact and last release on one step: a block that skims the road.
+fn skimming() -> Result<(Scene, Model)> {
+    let mut scene = thrown(0.5, [0.0; 3]);
+    scene.body.offset = [0.0, 0.0, 1e-9];
+    scene.body.velocity = [20.0, 0.0, -1e-6];
+    scene.stages[0].duration = 5e-3;
+    meshed(scene)
+}
+
+macro_rules! hard {
+    ($($name:literal, $title:literal, $energy:literal, $fails:literal, $build:expr;)*) => {
+        /// Every hard case whose limit is searched.
+        pub const HARD: &[Hard] =
+            &[$(Hard { name: $name, title: $title, build: $build, energy: $energy, fails: $fails }),*];
+    };
+}
+
+// Energies: second order in the step, 1e-2 where strains are moderate; impacts and edges that fold excite the highest
+// frequencies, which the step resolves by its safety alone; so does a wheel that stuck and slides at full speed at once.
+hard! {
+    "incompressible", "kappa / G = 10^4, rolling", 0.03, false, incompressible;
+    "slip_45", "slip angle 45 degrees", 0.03, false, || usual(0.5, at_angle(45.0), 70.0);
+    "slip_90", "slip angle 90 degrees", 0.03, false, || usual(0.5, at_angle(90.0), 70.0);
+    "locked", "locked wheel, omega = 0", 0.08, false, || usual(1.0, [SPEED, 0.0], 0.0);
+    "spun", "spun wheel, three times the free spin", 0.08, false, || usual(1.0, [SPEED, 0.0], 3.0 * 66.6);
+    "mu_0", "no friction", 0.03, false, || usual(0.0, [SPEED, 0.0], 70.0);
+    "mu_2", "mu = 2", 0.03, false, || usual(2.0, [SPEED, 0.0], 70.0);
+    "mu_10", "mu = 10", 0.03, false, || usual(10.0, [SPEED, 0.0], 70.0);
+    "press_6", "pressed by 6 mm", 0.03, false, || pressed(6e-3);
+    "press_8", "pressed by 8 mm", 0.03, false, || pressed(8e-3);
+    "press_16", "pressed by 16 of 22 mm: elements turn inside out", 0.03, true, || pressed(16e-3);
+    "impact_10", "block thrown at 10 m/s", 0.1, false, || meshed(thrown(10.0, [0.0; 3]));
+    "impact_30", "block thrown at 30 m/s", 0.1, false, || meshed(thrown(30.0, [0.0; 3]));
+    "corner", "corner first, tumbling, 5 m/s", 0.1, false, || meshed(thrown(5.0, [400.0, 300.0, 100.0]));
+    "flat", "elements 20 times as long as thick", 0.03, false, flat;
+    "skew", "elements sheared to 10 degrees from flat", 0.03, false, skewed;
+    "tiny", "one layer a twentieth as long as its neighbours", 0.03, false, tiny;
+    "hourglass", "one-point elements pressed by 4 mm at 20 degrees", 0.05, false, hourglass;
+    "skim", "first touch and last release on one step", 0.03, false, skimming;
+}

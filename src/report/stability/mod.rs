@@ -1,0 +1,13 @@
+//! Hard cases: does a run stay stable at the default settings, up to which safety factor, with what energy error; and
+//! where it fails, does it say what failed.
+
+mod limits;
+mod scales;
+mod steps;
+
+pub use limits::{HARD, Hard, Limit, find};
+
+use super::Case;
+
+/// Cases with claims of their own; [`HARD`] are those whose limit is searched.
+pub const CASES: &[Case] = &[steps::SHARP, steps::REFUSED, scales::SIMILAR, scales::FAR, scales::LONG];

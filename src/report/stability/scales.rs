@@ -1,0 +1,171 @@
+//! Similarity, distance from the origin, and long runs.
+
+use crate::Result;
+use crate::cpu::Precision;
+use crate::model::Model;
+use crate::report::bench::{HELD, Outcome, explicit, press, simulate_model, wheel};
+use crate::report::{Case, Claim};
+use crate::scene::*;
+
+pub const SIMILAR: Case = Case {
+    name: "similarity",
+    title: "The same wheel, a thousand times smaller and larger, a million times softer and stiffer",
+    source: "similarity: lengths s, moduli k, times s / sqrt(k), forces k s^2",
+    setup: "24 x 3 x 3 wheel, viscous, pressed and rolled for 10 ms (of the original), single precision",
+    everyday: true,
+    run: similar,
+};
+
+pub const FAR: Case = Case {
+    name: "far_away",
+    title: "A wheel that starts at x = 1 km, in single precision",
+    source: "nothing depends on where the road's origin is",
+    setup: "24 x 3 x 3 wheel, viscous, pressed and rolled for 0.1 s",
+    everyday: true,
+    run: far,
+};
+
+pub const LONG: Case = Case {
+    name: "million_steps",
+    title: "A million steps of rolling",
+    source: "steady rolling stays steady; balances close",
+    setup: "24 x 3 x 3 wheel, mu = 1, straight, a million steps with 20 Pa s and two hundred thousand without",
+    everyday: false,
+    run: long,
+};
+
+/// A wheel of lengths `s` and moduli `k` times the paper's.
+fn rolling(s: f64, k: f64, duration: f64, eta: f64) -> Scene {
+    let (time, speed) = (s / k.sqrt(), k.sqrt());
+    let mut scene = wheel([24, 3, 3], 1.0);
+    scene.body.mesh = MeshSpec::Ring {
+        outer_radius: 0.039 * s,
+        inner_radius: 0.017 * s,
+        width: 0.0175 * s,
+        elements: [24, 3, 3],
+    };
+    let Law::NeoHookean { g0, g1 } = scene.body.law else { unreachable!("the wheel is neo-Hookean") };
+    scene.body.law = Law::NeoHookean { g0: k * g0, g1: k * g1 };
+    scene.body.viscosity = (eta > 0.0).then_some(eta * k * time);
+    let at = |to: f64| Drive::Velocity { to, ramp: 0.0 };
+    let mut down = press(Drive::Displacement { to: -2.2e-3 * s, ramp: 0.02 * time });
+    (down.duration, down.mass_damping) = (0.2 * time, 3000.0 / time);
+    let rim = RimMotion { x: at(2.59 * speed), spin: at(70.0 / time), ..HELD };
+    let roll =
+        Stage { initial_velocity: Some(InitialVelocity::Rim), rim, ..explicit("roll", duration * time) };
+    scene.stages = vec![down, roll];
+    scene.output.sample = 1e-3 * time;
+    scene
+}
+
+fn run_in(scene: &Scene, precision: Precision) -> Result<Outcome> {
+    simulate_model(scene, Model::new(scene)?, precision)
+}
+
+/// Last forces over k s^2 [N].
+fn forces(outcome: &Outcome, s: f64, k: f64) -> [f64; 2] {
+    let mean = |column: fn(&crate::record::Sample) -> f64| outcome.mean("roll", 0.5, column) / (k * s * s);
+    [mean(|s| s.road_fx_N), mean(|s| s.road_fz_N)]
+}
+
+fn similar() -> Result<Vec<Claim>> {
+    const REASON: &str =
+        "single precision: 6e-8 of positions against strains of 1e-2 to 1e-1, over a thousand steps";
+    let reference = forces(&run_in(&rolling(1.0, 1.0, 0.01, 20.0), Precision::F32)?, 1.0, 1.0);
+    let mut claims = Vec::new();
+    for (s, k) in [(1e-3, 1.0), (1e3, 1.0), (1.0, 1e-6), (1.0, 1e6), (1e3, 1e6)] {
+        let found = forces(&run_in(&rolling(s, k, 0.01, 20.0), Precision::F32)?, s, k);
+        for (name, (got, expected)) in ["Fx", "Fz"].iter().zip(found.into_iter().zip(reference)) {
+            let what = format!("lengths x {s}, moduli x {k}: {name} over k s^2");
+            claims.push(Claim::relative(what, "N", got, expected, 1e-3, REASON));
+        }
+    }
+    Ok(claims)
+}
+
+fn far() -> Result<Vec<Claim>> {
+    const REASON: &str =
+        "positions are kept relative to a frame that follows the axle: no digit is lost to distance";
+    let near = rolling(1.0, 1.0, 0.1, 20.0);
+    let mut away = near.clone();
+    away.body.offset = [1000.0, 0.0, 0.0];
+    let [a, b] = [&near, &away].map(|scene| run_in(scene, Precision::F32).map(|o| forces(&o, 1.0, 1.0)));
+    let (a, b) = (a?, b?);
+    Ok(vec![
+        Claim::relative("Fx at 1 km", "N", b[0], a[0], 1e-3, REASON),
+        Claim::relative("Fz at 1 km", "N", b[1], a[1], 1e-3, REASON),
+    ])
+}
+
+/// Standard deviation over mean of the load in the last tenth of the rolling.
+fn scatter(outcome: &Outcome) -> f64 {
+    let mean = outcome.mean("roll", 0.1, |s| s.road_fz_N);
+    outcome.mean("roll", 0.1, |s| (s.road_fz_N - mean).powi(2)).sqrt() / mean
+}
+
+fn long() -> Result<Vec<Claim>> {
+    let steps = |wanted: f64, eta: f64| -> Result<Outcome> {
+        // As long as the longest step of a short run would take for so many.
+        let dt = run_in(&rolling(1.0, 1.0, 0.01, eta), Precision::F64)?.totals.dt_max;
+        run_in(&rolling(1.0, 1.0, wanted * dt, eta), Precision::F64)
+    };
+    let viscous = steps(1e6, 20.0)?;
+    let rows: Vec<_> = viscous.stage("roll").collect();
+    let share = |from: f64, to: f64, f: fn(&crate::record::Sample) -> f64| {
+        let [from, to] = [from, to].map(|s| (s * rows.len() as f64) as usize);
+        rows[from..to].iter().map(|s| f(s)).sum::<f64>() / (to - from) as f64
+    };
+    let elastic = steps(2e5, 0.0)?;
+    let ledger = &viscous.totals.ledger;
+    let stored = |at: f64| {
+        let s = rows[((rows.len() - 1) as f64 * at) as usize];
+        s.stored_balance_error_J / s.external_work_J.abs()
+    };
+    Ok(vec![
+        Claim::at_least("steps taken", "", viscous.totals.steps as f64, 1e6, "what was promised"),
+        Claim::relative(
+            "Fx of the last tenth over that of the second",
+            "",
+            share(0.9, 1.0, |s| s.road_fx_N),
+            share(0.1, 0.2, |s| s.road_fx_N),
+            1e-3,
+            "steady: each window repeats the one before",
+        ),
+        Claim::relative(
+            "Fz of the last tenth over that of the second",
+            "",
+            share(0.9, 1.0, |s| s.road_fz_N),
+            share(0.1, 0.2, |s| s.road_fz_N),
+            1e-3,
+            "the same",
+        ),
+        Claim::at_most(
+            "error of the work balance over its largest term",
+            "",
+            ledger.worst_balance / ledger.largest_term,
+            1e-10,
+            "round-off of a million steps",
+        ),
+        Claim::at_most(
+            "stored-energy error over the work done, at the end",
+            "",
+            stored(1.0).abs(),
+            5e-3,
+            "second order in the step, of the power that passes through",
+        ),
+        Claim::at_most(
+            "side force over load (symmetry)",
+            "",
+            (share(0.5, 1.0, |s| s.road_fy_N) / share(0.5, 1.0, |s| s.road_fz_N)).abs(),
+            1e-6,
+            "round-off that symmetry does not amplify",
+        ),
+        Claim::at_least(
+            "elastic: scatter of Fz over that of the viscous wheel",
+            "",
+            scatter(&elastic) / scatter(&viscous),
+            1.5,
+            "friction on an elastic body chatters (mechanics of Adams 1995), and the history shows it",
+        ),
+    ])
+}

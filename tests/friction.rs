@@ -1,0 +1,159 @@
+//! Friction laws beyond Coulomb's: their curves, and what one step of contact makes of them.
+
+mod common;
+
+use common::{Random, close};
+use hexroll::physics::contact::{self, Touch};
+use hexroll::physics::friction::AnyFriction;
+use hexroll::physics::node::StepSize;
+use hexroll::physics::road::Plane;
+use hexroll::physics::tensor::dot;
+use hexroll::scene::Friction;
+
+const STRIBECK: Friction = Friction::Stribeck { still: 1.2, kinetic: 0.7, speed: 0.1, slope: 0.05 };
+const FIT: Friction = Friction::PressureVelocity { a: 0.4, b: 0.5, pressure: 2e5, c: 0.3, speed: 0.2 };
+const VISCOUS: Friction = Friction::Viscous { slope: 0.8 };
+
+/// The curve at pressure p and speed v, as the documentation of scene files writes it.
+fn expected(law: &Friction, p: f64, v: f64) -> f64 {
+    match *law {
+        Friction::Coulomb { mu } => mu,
+        Friction::Viscous { slope } => slope * v,
+        Friction::Stribeck { still, kinetic, speed, slope } => {
+            kinetic + (still - kinetic) * (-(v / speed).powi(2)).exp() + slope * v
+        }
+        Friction::PressureVelocity { a, b, pressure, c, speed } => {
+            a + b * (-p / pressure).exp() + c * (-v / speed).exp()
+        }
+    }
+}
+
+fn coefficient(law: &Friction, p: f64, v: f64) -> f64 {
+    let AnyFriction::Law(law) = AnyFriction::<f64>::new(law) else { panic!("a law in pressure and speed") };
+    law.coefficient(p, v)
+}
+
+#[test]
+fn every_law_has_its_curve() {
+    for law in [VISCOUS, STRIBECK, FIT] {
+        for v in [0.0, 0.03, 0.1, 0.5, 3.0] {
+            for p in [0.0, 1e4, 2e5, 5e6] {
+                let (got, wanted) = (coefficient(&law, p, v), expected(&law, p, v));
+                // The same formula in another order.
+                assert!((got - wanted).abs() < 1e-15 * 4.0, "{law:?} at {p} Pa, {v} m/s: {got}, {wanted}");
+            }
+        }
+    }
+    // The numbers themselves, by hand: exp(-1) = 0.36788.
+    close("Stribeck at its speed", coefficient(&STRIBECK, 0.0, 0.1), 0.7 + 0.5 * 0.367_879_44 + 0.005, 1e-8);
+    close("fit at its pressure and speed", coefficient(&FIT, 2e5, 0.2), 0.4 + 0.8 * 0.367_879_44, 1e-8);
+}
+
+const MASS: f64 = 2e-3;
+const STEP: StepSize<f64> = StepSize { dt: 1.1e-5, dtm: 1e-5 };
+const AREA: f64 = 4e-6;
+
+/// A node on a resting road that would have velocity `v` after the step and had `before`, its area known.
+fn touch_from(law: &Friction, before: [f64; 3], v: [f64; 3]) -> Touch<f64> {
+    let road = Plane::<f64>::new([0.0; 3], [0.0, 0.0, 1.0], [0.0; 3], [0.0; 3]);
+    let law = AnyFriction::new(law);
+    contact::project_any(&road, Some(&law), || 1.0 / AREA, MASS, STEP, [0.0; 3], before, v).expect("it falls")
+}
+
+fn touch(law: &Friction, v: [f64; 3]) -> Touch<f64> {
+    touch_from(law, v, v)
+}
+
+/// A sliding node has friction mu(p, v) times its normal force at its own pressure and at the speed that remains;
+/// within the second order of the loss of speed in this step.
+#[test]
+fn friction_is_taken_at_the_speed_that_remains() {
+    let mut random = Random::new(31);
+    for law in [VISCOUS, STRIBECK, FIT] {
+        let mut slid = 0;
+        for _ in 0..2000 {
+            let v = [random.signed(), random.signed(), -0.01 * (1.0 + random.signed())];
+            let t = touch(&law, v);
+            if t.sticks || dot(t.normal_force, t.normal_force) == 0.0 {
+                continue;
+            }
+            let push = t.normal_force[2];
+            let remains = t.v[0].hypot(t.v[1]);
+            let friction = t.tangential_force[0].hypot(t.tangential_force[1]);
+            let before = v[0].hypot(v[1]);
+            let mu = expected(&law, push / AREA, remains);
+            // Secant over the loss: its square times the curvature of mu, some 1/speed^2.
+            let loss = (before - remains) / 0.1;
+            let tolerance = 1e-9 + loss * loss * (0.1 / before).min(1.0);
+            assert!((friction / push - mu).abs() <= tolerance, "{law:?}: {} for {mu}", friction / push);
+            assert!(dot(t.tangential_force, t.v) <= 0.0, "friction acts against the slip");
+            assert!(before >= remains);
+            slid += 1;
+        }
+        assert!(slid > 500, "{law:?} slid {slid} times");
+    }
+}
+
+/// A viscous film holds nothing and stops nothing, however steep: v = v* / (1 + slope dv), dv the speed of landing.
+#[test]
+fn a_steep_viscous_film_is_solved_exactly() {
+    for slope in [0.1, 10.0, 1e4] {
+        let t = touch(&Friction::Viscous { slope }, [0.3, 0.0, -0.02]);
+        close("speed that remains", t.v[0], 0.3 / (1.0 + slope * 0.02), 1e-12);
+        assert!(!t.sticks);
+    }
+}
+
+/// At rest the static coefficient decides: just below it a node sticks, just above it slides, at the kinetic one if fast.
+#[test]
+fn the_static_coefficient_decides_at_rest() {
+    let fall = 0.02;
+    let most = 1.2 * fall;
+    let rest = [0.0; 3];
+    let below = touch_from(&STRIBECK, rest, [0.999 * most, 0.0, -fall]);
+    assert!(below.sticks && below.v[0] == 0.0 && below.v[1] == 0.0, "it does not creep");
+    assert!(!touch_from(&STRIBECK, rest, [1.001 * most, 0.0, -fall]).sticks);
+    let fast = touch(&STRIBECK, [2.0, 0.0, -fall]);
+    close("fast", -fast.tangential_force[0] / fast.normal_force[2], 0.7 + 0.05 * fast.v[0], 1e-6);
+}
+
+/// A node that slides fast is stopped by its sliding friction or not at all: the grip of rest does not catch it, though
+/// within one step it could.
+#[test]
+fn rest_does_not_catch_what_slides() {
+    let push = 1.0;
+    // Static friction could stop 1.2 m/s in this step, sliding friction about 0.75.
+    let t = touch_from(&STRIBECK, [1.0, 0.0, 0.0], [1.0, 0.0, -push]);
+    assert!(!t.sticks, "{t:?}");
+    close("speed that remains", t.v[0], 1.0 - 0.7 - 0.05 * t.v[0], 0.02);
+    assert!(touch_from(&STRIBECK, [0.0; 3], [1.0, 0.0, -push]).sticks, "at rest it holds");
+    assert!(touch_from(&STRIBECK, [0.6, 0.0, 0.0], [0.6, 0.0, -push]).sticks, "slow enough to stop");
+    // Steady sliding on what pulls with just the friction: exact.
+    let mu = expected(&STRIBECK, 0.0, 0.5);
+    let steady = touch_from(&STRIBECK, [0.5, 0.0, 0.0], [0.5 + mu * push, 0.0, -push]);
+    close("steady speed", steady.v[0], 0.5, 1e-14);
+}
+
+/// The same load on a smaller area slides with less friction, by the law's own factor.
+#[test]
+fn pressure_is_force_over_area() {
+    let road = Plane::<f64>::new([0.0; 3], [0.0, 0.0, 1.0], [0.0; 3], [0.0; 3]);
+    let law = AnyFriction::new(&FIT);
+    for area in [1e-6, 1e-5, 1e-4] {
+        let inverse = || 1.0 / area;
+        let t = contact::project_any(
+            &road,
+            Some(&law),
+            inverse,
+            MASS,
+            STEP,
+            [0.0; 3],
+            [3.0, 0.0, 0.0],
+            [3.0, 0.0, -0.01],
+        )
+        .unwrap();
+        let push = t.normal_force[2];
+        let mu = 0.4 + 0.5 * (-push / area / 2e5f64).exp() + 0.3 * (-t.v[0] / 0.2).exp();
+        close("mu", -t.tangential_force[0] / push, mu, 1e-9);
+    }
+}
