@@ -63,6 +63,8 @@ fn choices() -> Vec<Choice> {
                             damping,
                             rim,
                             plus,
+                            // Both, each with everything else.
+                            few_classes: gravity,
                         };
                         all.push(choice);
                     }

@@ -1,6 +1,7 @@
 //! Every buffer of a run, by the name the shaders use.
 
 use super::Gpu;
+use super::compose::FEW_CLASSES;
 use super::layout::{self, MeanClass, PointClass, PointGeometry};
 use crate::error::{Error, Result};
 use crate::model::Model;
@@ -63,7 +64,10 @@ impl Buffers {
 }
 
 fn usage() -> wgpu::BufferUsages {
-    wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC
+    wgpu::BufferUsages::STORAGE
+        | wgpu::BufferUsages::UNIFORM
+        | wgpu::BufferUsages::COPY_DST
+        | wgpu::BufferUsages::COPY_SRC
 }
 
 /// What may not fit: name, bytes, and the limit it meets.
@@ -98,18 +102,21 @@ pub fn vec4(v: [f64; 3]) -> [f32; 4] {
     [v[0] as f32, v[1] as f32, v[2] as f32, 0.0]
 }
 
-/// Shape classes as the element's shader reads them.
+/// Shape classes as the element's shader reads them: from a uniform buffer where they are few, which adapters keep closer
+/// than storage.
 pub fn upload_classes(buffers: &mut Buffers, gpu: &Gpu, model: &Model) {
     match model.element {
-        Element::UniformGradient { .. } => {
-            let classes: Vec<MeanClass> = model.classes.iter().map(mean_class).collect();
-            buffers.filled(gpu, "classes", &classes);
-        }
-        Element::Q1p0 | Element::Full => {
-            let classes: Vec<PointClass> = model.classes.iter().map(point_class).collect();
-            buffers.filled(gpu, "classes", &classes);
-        }
+        Element::UniformGradient { .. } => upload_table(buffers, gpu, model, mean_class),
+        Element::Q1p0 | Element::Full => upload_table(buffers, gpu, model, point_class),
     }
+}
+
+fn upload_table<C: Pod>(buffers: &mut Buffers, gpu: &Gpu, model: &Model, class: fn(&Class<f64>) -> C) {
+    let mut table: Vec<C> = model.classes.iter().map(class).collect();
+    if table.len() <= FEW_CLASSES {
+        table.resize(FEW_CLASSES, C::zeroed());
+    }
+    buffers.filled(gpu, "classes", &table);
 }
 
 fn point_class(class: &Class<f64>) -> PointClass {

@@ -15,6 +15,8 @@ macro_rules! shaders {
     };
 }
 shaders!(
+    "class/few",
+    "class/many",
     "contact/areas",
     "contact/areas_none",
     "contact/book",
@@ -129,7 +131,13 @@ pub struct Choice {
     pub rim: RimKind,
     /// Positions as hi + lo pairs.
     pub plus: bool,
+    /// The shape classes fit in a uniform buffer: at most [`FEW_CLASSES`].
+    pub few_classes: bool,
 }
+
+/// Length of the table of shape classes in a uniform buffer, as in `shaders/class/few.wgsl`: within the 64 KiB that
+/// every adapter binds. A generated ring has one class a radial layer.
+pub const FEW_CLASSES: usize = 48;
 
 /// A friction law and what finds the force with it.
 fn friction_parts(law: &Friction) -> Vec<&'static str> {
@@ -183,7 +191,8 @@ impl Choice {
             Element::Full => vec!["element/full", "lib/points"],
             Element::UniformGradient { .. } => vec!["element/uniform_gradient"],
         };
-        [element, vec!["lib/elements", "lib/hex8", "lib/index", position], law].concat()
+        let classes = if self.few_classes { "class/few" } else { "class/many" };
+        [element, vec![classes, "lib/elements", "lib/hex8", "lib/index", position], law].concat()
     }
 
     fn force_parts(&self) -> Vec<&'static str> {

@@ -2,7 +2,7 @@
 
 use super::Gpu;
 use super::buffers::{self, Buffers, PLAN, STEP_STRIDE, vec4};
-use super::compose::{Choice, Kernel, RimKind};
+use super::compose::{Choice, FEW_CLASSES, Kernel, RimKind};
 use super::layout::{self, Node, RimSum, SurfaceRecord};
 use super::program::Program;
 use super::readback::Readback;
@@ -121,6 +121,7 @@ impl GpuEngine {
             damping: false,
             rim: if model.mesh.rim.is_empty() { RimKind::None } else { RimKind::Prescribed },
             plus,
+            few_classes: model.classes.len() <= FEW_CLASSES,
         };
         let grain = frame::grain(&model.mesh);
         let frame = frame::shift(grain, model.mesh.axle, [0.0; 3], scene.road.as_ref());

@@ -6,7 +6,7 @@ use naga::{AddressSpace, Module, StorageAccess, TypeInner};
 use serde::Serialize;
 
 use crate::engine::StageSetup;
-use crate::gpu::compose::{Choice, Kernel, RimKind};
+use crate::gpu::compose::{Choice, FEW_CLASSES, Kernel, RimKind};
 use crate::model::Model;
 use crate::scene::{Drive, Scene};
 use crate::{Error, Result};
@@ -61,14 +61,15 @@ impl GpuPlan {
     pub fn of(scene: &Scene, model: &Model) -> Result<GpuPlan> {
         let mut programs: Vec<Program> = Vec::new();
         for (kernel, runs) in scene_kernels(scene) {
-            programs.push(program(&choice(scene), kernel, runs)?);
+            programs.push(program(&choice(scene, model), kernel, runs)?);
         }
         for stage in &scene.stages {
             let free = stage.rim.drives().map(|d| match d {
                 Drive::Free { mass, .. } => Some(mass),
                 _ => None,
             });
-            let choice = choice(scene).for_stage(&StageSetup { mass_damping: stage.mass_damping, free });
+            let choice =
+                choice(scene, model).for_stage(&StageSetup { mass_damping: stage.mass_damping, free });
             for (kernel, runs) in stage_kernels(&choice) {
                 let new = program(&choice, kernel, runs)?;
                 match programs.iter_mut().find(|p| p.parts == new.parts) {
@@ -83,7 +84,7 @@ impl GpuPlan {
 }
 
 /// What the scene needs, whatever the stage.
-fn choice(scene: &Scene) -> Choice {
+fn choice(scene: &Scene, model: &Model) -> Choice {
     Choice {
         element: scene.body.element,
         law: scene.body.law,
@@ -95,6 +96,7 @@ fn choice(scene: &Scene) -> Choice {
         damping: false,
         rim: if scene.rim.is_some() { RimKind::Prescribed } else { RimKind::None },
         plus: false,
+        few_classes: model.classes.len() <= FEW_CLASSES,
     }
 }
 
@@ -184,6 +186,7 @@ fn entries(name: &str, model: &Model) -> Option<u64> {
     let count = match name {
         "hexes" | "class_of" | "energies" | "viscous_work" => model.element_count(),
         "slots" | "corners" => 8 * model.element_count(),
+        "classes" if model.classes.len() <= FEW_CLASSES => FEW_CLASSES,
         "classes" => model.classes.len(),
         "corner_start" => model.node_count() + 1,
         "nodes" | "positions" | "positions_lo" | "velocities" | "forces" | "works" | "probes" => {
