@@ -28,16 +28,16 @@ fn operations_of_simple_routines_are_those_counted_by_hand() {
     assert_eq!(count(|| a.min(b)).1, ops(0, 0, 0, 0), "a minimum is not arithmetic");
     let m: Mat3<Counted<f64>> = [[a, b, c], [c, a, b], [b, b, a]];
     assert_eq!(count(|| dot(m[0], m[1])).1, ops(0, 1, 2, 0));
-    // Three cross products of six products and three differences.
-    assert_eq!(count(|| cofactor(&m)).1, ops(9, 18, 0, 0));
-    assert_eq!(count(|| det(&m)).1, ops(3, 7, 2, 0));
+    // Three cross products of three products and three fused ones.
+    assert_eq!(count(|| cofactor(&m)).1, ops(0, 9, 9, 0));
+    assert_eq!(count(|| det(&m)).1, ops(0, 4, 5, 0));
     let s = Sym3 { xx: a, yy: b, zz: c, xy: a, xz: b, yz: c };
     // Nine components: a product and two fused ones each.
     assert_eq!(count(|| s.left_multiplied(&m)).1, ops(0, 9, 18, 0));
-    // A guess (one of each), x/3, and four Newton steps of four products and a fused one.
-    assert_eq!(count(|| a.recip_cbrt()).1, ops(1, 18, 4, 0));
-    let three_steps = count(|| Counted::<f32>::from_f64(2.0).recip_cbrt());
-    assert_eq!(three_steps.1, ops(1, 14, 3, 0));
+    // A guess (one of each), and two steps of three products and four fused ones.
+    assert_eq!(count(|| a.recip_cbrt()).1, ops(1, 7, 8, 0));
+    let single = count(|| Counted::<f32>::from_f64(2.0).recip_cbrt());
+    assert_eq!(single.1, ops(1, 7, 8, 0));
     // Eight corners of three components; g - f/m and v' = keep v + push a; x' = x + dt v.
     assert_eq!(node_operations::<f64>(8), ops(24, 3, 9, 0));
     let o = ops(2, 3, 5, 7);
@@ -49,7 +49,7 @@ fn operations_of_simple_routines_are_those_counted_by_hand() {
 fn counting_does_not_change_the_numbers() {
     for x in [1e-3, 0.2, 1.0, 7.0, 4e5] {
         let root = Counted::<f64>::from_f64(x).recip_cbrt().0;
-        // Four Newton steps: the last digits, as in the lanes.
+        // Two steps of fourth order: the last digits, as in the lanes.
         assert!((root * x.cbrt() - 1.0).abs() < 8e-16, "{x}: {root}");
         let root = Counted::<f32>::from_f64(x).recip_cbrt().0.to_f64();
         assert!((root * f64::from(x as f32).cbrt() - 1.0).abs() < 5e-7, "{x}: {root}");
@@ -81,9 +81,8 @@ fn every_composition_is_counted_and_costs_what_it_should() {
     assert!(2 * uniform < q1p0 && 2 * uniform < full, "{q1p0} {full} {uniform}");
     // I2 needs A^T A M.
     assert!(of(Element::Q1p0, LAWS[1]) > q1p0 + 8 * 40);
-    // Three Newton steps for four, at each of eight points; nothing else differs.
-    let single = element_operations::<f32>(&small(Element::Q1p0, LAWS[0], None)).flops();
-    assert_eq!(q1p0 - single, 8 * 6);
+    // The same routine in either precision.
+    assert_eq!(q1p0, element_operations::<f32>(&small(Element::Q1p0, LAWS[0], None)).flops());
 }
 
 #[test]

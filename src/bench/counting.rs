@@ -5,6 +5,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use serde::{Deserialize, Serialize};
 
+use crate::physics::lanes::recip_cbrt_from;
 use crate::physics::scalar::{Real, Scalar};
 
 /// Floating-point operations by kind. A change of sign, a minimum and a constant are not counted.
@@ -131,18 +132,21 @@ impl<T: Real> Scalar for Counted<T> {
         Counted(self.0.mul_add(a.0, b.0))
     }
 
-    /// As the lanes do it: a first guess from the bits (a product and a sum), then Newton steps.
+    fn mul_sub(self, a: Self, b: Self) -> Self {
+        tally(FUSED);
+        Counted(self.0.mul_sub(a.0, b.0))
+    }
+
+    fn neg_mul_add(self, a: Self, b: Self) -> Self {
+        tally(FUSED);
+        Counted(self.0.neg_mul_add(a.0, b.0))
+    }
+
+    /// As the lanes do it: a first guess from the bits (a product and a sum), then their steps.
     fn recip_cbrt(self) -> Self {
         tally(MUL);
         tally(ADD);
-        let mut y = Counted(self.0.recip_cbrt_guess());
-        let scaled = Self::from_f64(1.0 / 3.0) * self;
-        let four_thirds = Self::from_f64(4.0 / 3.0);
-        for _ in 0..T::CBRT_STEPS {
-            let cube = y * y * y;
-            y = (-(scaled * cube)).mul_add(y, y * four_thirds);
-        }
-        y
+        recip_cbrt_from(Counted(self.0.recip_cbrt_guess()), self, T::CBRT_STEPS)
     }
 
     fn ln(self) -> Self {

@@ -4,18 +4,26 @@ use crate::rig::{Plan, Who, displacement, note, outcome, relative, safe_step, sc
 use hexroll::gpu::Gpu;
 use hexroll::model::Model;
 
-const LAWS: [&str; 3] = [
-    "friction={ law = \"viscous\", slope = \"2 s/m\" }",
-    "friction={ law = \"stribeck\", static = 0.9, kinetic = 0.4, speed = \"0.1 m/s\", slope = \"0.2 s/m\" }",
-    "friction={ law = \"pressure-velocity\", a = 0.2, b = 0.5, pressure = \"0.2 MPa\", c = 0.3, speed = \"0.2 m/s\" }",
+/// Laws, and the windows of 40 steps over which they are compared. Friction that falls with pressure makes a sliding block
+/// jump, and jumps amplify rounding without bound: that law is compared while the block is being pressed.
+const LAWS: [(&str, usize); 3] = [
+    ("friction={ law = \"viscous\", slope = \"2 s/m\" }", 20),
+    (
+        "friction={ law = \"stribeck\", static = 0.9, kinetic = 0.4, speed = \"0.1 m/s\", slope = \"0.2 s/m\" }",
+        20,
+    ),
+    (
+        "friction={ law = \"pressure-velocity\", a = 0.2, b = 0.5, pressure = \"0.2 MPa\", c = 0.1, speed = \"1 m/s\" }",
+        5,
+    ),
 ];
 
-/// A block pressed on a road that slides under it, plane strain: 800 steps in 20 windows, so that areas are taken anew.
+/// A block pressed on a road that slides under it, plane strain: in windows of 40 steps, so that areas are taken anew.
 /// Positions of 40 mm in single precision against displacements of 1 mm: 4e-9 / 1e-3, grown by contact that starts
 /// a step sooner or later.
 pub fn friction_and_holds(gpu: &Gpu) {
     let mut works = Vec::new();
-    for law in LAWS {
+    for (law, windows) in LAWS {
         let changes = [
             "body.mesh.elements=[4, 4, 2]",
             "stage.0.rim.z={ displacement = \"-1 mm\", ramp = \"5 ms\" }",
@@ -25,7 +33,7 @@ pub fn friction_and_holds(gpu: &Gpu) {
         ];
         let scene = scene("pressed_block", &changes);
         let model = Model::new(&scene).unwrap();
-        let plan = Plan::of_first_stage(&scene, &model, safe_step(&model), 20, 40);
+        let plan = Plan::of_first_stage(&scene, &model, safe_step(&model), windows, 40);
         let reference = outcome(gpu, Who::Cpu64, &model, &scene, &plan);
         let expected = displacement(&model, &reference.state);
         let friction = |o: &crate::rig::Outcome| o.windows.iter().map(|w| w.works.friction).sum::<f64>();

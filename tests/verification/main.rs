@@ -45,7 +45,6 @@ pages! {
     a_pressed_cylinder_is_hertzs: "hertz_line";
     #[ignore = "long: make verify"]
     a_pressed_ball_is_hertzs: "hertz_point";
-    a_pushed_cylinder_slips_at_its_edges: "cattaneo_mindlin";
     #[ignore = "long: make verify"]
     a_rolling_cylinder_creeps_as_carter_says: "carter";
     a_slider_follows_its_equation_of_motion: "slider";

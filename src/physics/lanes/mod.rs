@@ -27,7 +27,7 @@ pub fn first(count: usize) -> u32 {
 /// x^(-1/3) from a first guess y within 4 %: with r = 1 - x y^3, y (1 - r)^(-1/3) by its series to r^3. The relative
 /// error after it is 35/243 r^4: 3.5e-5 after one step, 1e-17 after two.
 #[inline(always)]
-fn recip_cbrt_from<S: Scalar>(guess: S, x: S, steps: usize) -> S {
+pub fn recip_cbrt_from<S: Scalar>(guess: S, x: S, steps: usize) -> S {
     let (a, b, c) = (S::from_f64(1.0 / 3.0), S::from_f64(2.0 / 9.0), S::from_f64(14.0 / 81.0));
     let mut y = guess;
     let mut n = 0;

@@ -8,7 +8,6 @@ use crate::Result;
 use crate::cpu::element_forces;
 use crate::model::Model;
 use crate::physics::element::hex8;
-use crate::physics::tensor::det;
 use crate::report::bench::{G, KAPPA, RUBBER, block};
 use crate::report::{Case, Claim};
 use crate::scene::{Element, Law};
@@ -40,7 +39,7 @@ fn cauchy(model: &Model, F: &Matrix) -> Matrix {
         std::array::from_fn(|i| (0..3).map(|c| F[c][i] * X[c]).sum::<f64>())
     });
     let f = element_forces(model, 0, &x, &[[0.0; 3]; 8]);
-    let volume = det(&hex8::at(&hex8::gradients(&x), 0)) * 8.0;
+    let volume = hex8::volume(&x);
     std::array::from_fn(|j| std::array::from_fn(|i| (0..8).map(|a| f[a][i] * x[a][j]).sum::<f64>() / volume))
 }
 

@@ -4,7 +4,6 @@ mod bar_impact;
 mod bonded_strip;
 mod brush;
 mod carter;
-mod cattaneo;
 mod constitutive;
 mod cylinder;
 mod hertz_line;
@@ -28,7 +27,6 @@ pub const CASES: &[Case] = &[
     bar_impact::CASE,
     hertz_line::CASE,
     hertz_point::CASE,
-    cattaneo::CASE,
     carter::CASE,
     slider::CASE,
     slope::CASE,
