@@ -16,7 +16,7 @@ Nothing is cached: every number is computed now, on this machine, and the page s
 
 Examples:
   hexroll report verification
-  hexroll report verification --only hertz_line --only carter --out -
+  hexroll report verification --only hertz_line --only hertz_point --out -
   hexroll report verification --everyday";
 
 #[derive(Debug, Args)]

@@ -3,7 +3,6 @@
 mod bar_impact;
 mod bonded_strip;
 mod brush;
-mod carter;
 mod constitutive;
 mod cylinder;
 mod hertz_line;
@@ -27,7 +26,6 @@ pub const CASES: &[Case] = &[
     bar_impact::CASE,
     hertz_line::CASE,
     hertz_point::CASE,
-    carter::CASE,
     slider::CASE,
     slope::CASE,
     brush::CASE,
