@@ -12,6 +12,7 @@ mod errors;
 mod far;
 mod forces;
 mod repeat;
+mod resident;
 mod rig;
 mod rim;
 mod rolling;
@@ -26,7 +27,7 @@ use std::sync::Arc;
 
 type Check = fn(&Gpu);
 
-const CHECKS: [(&str, Check); 18] = [
+const CHECKS: [(&str, Check); 20] = [
     ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
     ("forces_as_pairs_are_the_cpus", forces::pairs),
     ("a_step_with_everything_is_the_cpus", steps::everything),
@@ -39,11 +40,13 @@ const CHECKS: [(&str, Check); 18] = [
     ("a_rerun_is_the_same_to_the_bit", repeat::bit_identical),
     ("far_from_the_origin_forces_are_the_same", far::offset),
     ("the_frame_follows_a_fast_wheel", far::followed),
+    ("a_mesh_in_one_work_group_moves_as_elsewhere", resident::agrees),
     ("timed_steps_are_the_steps", timing::passes),
     ("limits_of_the_adapter_are_measured", timing::limits),
     ("a_run_that_goes_wrong_says_where", errors::failures),
     ("what_does_not_fit_is_refused", errors::limits),
     ("what_wgpu_refuses_is_an_error", errors::device_errors),
+    ("contact_step_by_step_adds_up", contact::steps_add_up),
     ("nothing_penetrates_and_what_sticks_stays", contact::exact),
 ];
 
