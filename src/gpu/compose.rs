@@ -219,7 +219,9 @@ impl Choice {
         let mut parts = vec!["kernels/resident", "position/resident", "nodes/all", "lib/take_step"];
         parts.extend(if self.viscous { vec!["viscosity/rates_resident"] } else { vec![] });
         parts.extend(if self.road { vec!["contact/step_resident"] } else { vec!["contact/step_none"] });
-        parts.extend([self.element_parts(), self.force_parts(), self.move_parts(), self.book_parts()].concat());
+        parts.extend(
+            [self.element_parts(), self.force_parts(), self.move_parts(), self.book_parts()].concat(),
+        );
         // The index folds dispatches of both passes.
         let mut met = std::collections::BTreeSet::new();
         parts.retain(|part| met.insert(*part));
@@ -280,7 +282,11 @@ impl Choice {
 
     fn booking_parts(&self) -> Vec<&'static str> {
         let mut parts = self.book_parts();
-        parts.extend(if self.road { vec!["contact/step", "lib/group_sum"] } else { vec!["contact/step_none"] });
+        parts.extend(if self.road {
+            vec!["contact/step", "lib/group_sum"]
+        } else {
+            vec!["contact/step_none"]
+        });
         parts.extend(match (self.plus, self.road) {
             (false, _) => vec!["position/store_f32"],
             (true, false) => vec!["position/store_f32_plus", "lib/two_sum", "contact/landing_none"],

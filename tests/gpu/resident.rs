@@ -30,8 +30,12 @@ pub fn agrees(gpu: &Gpu) {
         });
         assert!(resident.state != passes.state, "{stem}: both went the same way");
         // A coordinate's rounding, 4e-9 m, beside the 2e-5 m of a step's way; contact may come a step sooner or later.
-        let bounds =
-            [("contact steps", 2e-2), ("surface v", 1e-2), ("residual forces", 2e-2), ("contact impulse", 1e-3)];
+        let bounds = [
+            ("contact steps", 2e-2),
+            ("surface v", 1e-2),
+            ("residual forces", 2e-2),
+            ("contact impulse", 1e-3),
+        ];
         for (who, other) in [("resident and f64", &exact), ("resident and passes", &passes)] {
             within(&format!("{stem}: {who}"), &errors(&plan, 0.039, &resident, other), &bounds, 1e-3);
             within(
