@@ -1,7 +1,7 @@
 //! Every kernel holds what its scene uses and nothing else. Proved on the composed text, without an adapter.
 //!
 //! The parts that decide a kernel's text are few: all combinations of 3 elements, 3 laws, 3 rims, road and friction law,
-//! viscosity, gravity, damping, held components and pair positions give some 650 different texts, and every one of them
+//! viscosity, gravity, damping, held components and pair positions give some 900 different texts, and every one of them
 //! is checked.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
@@ -14,10 +14,12 @@ use hexroll::gpu::layout;
 use hexroll::scene::{Element, Friction, Law};
 use naga::{Block, Expression, Function, GlobalVariable, Handle, Module, Statement};
 
-const KERNELS: [Kernel; 10] = [
+const KERNELS: [Kernel; 12] = [
     Kernel::ElementForce,
     Kernel::ElementEnergy,
     Kernel::Node,
+    Kernel::Boundary,
+    Kernel::Resident,
     Kernel::NodeProbe,
     Kernel::Rim,
     Kernel::SurfaceState,
@@ -64,7 +66,7 @@ fn choices() -> Vec<Choice> {
                             rim,
                             plus,
                             // Both, each with everything else.
-                            few_classes: gravity,
+                            shared_classes: gravity,
                         };
                         all.push(choice);
                     }
@@ -191,7 +193,7 @@ fn names(module: &Module) -> BTreeSet<String> {
 
 /// What a kernel may bring without using it: files that hold the few functions of one subject, of which a kernel
 /// calls some. Everything else that is composed must be reached.
-const SHARED: [(&str, &[&str]); 13] = [
+const SHARED: [(&str, &[&str]); 14] = [
     // Element passes: the force pass needs the stress and not the energy, the energy pass the other way round;
     // elements with points need the Gauss lines, the uniform-gradient one does not.
     ("lib/hex8", &["interpolate", "gradients", "half_edges", "scatter", "cofactor"]),
@@ -205,10 +207,11 @@ const SHARED: [(&str, &[&str]); 13] = [
     ("material/mooney_rivlin", &["psi", "first_piola", "U", "dU"]),
     ("material/mooney_rivlin_eq4", &["psi", "first_piola", "U", "dU"]),
     // Corner positions come as half edges (points) or as offsets (uniform gradient).
-    ("position/f32", &["load_half_edges", "load_offsets"]),
-    ("position/f32_plus", &["load_half_edges", "load_offsets", "sum_pair"]),
-    // Every kernel folds its index, the force pass alone looks for NaN.
-    ("lib/index", &["is_finite"]),
+    ("position/f32", &["half_edges_of", "offsets_of"]),
+    ("position/resident", &["half_edges_of", "offsets_of"]),
+    ("position/f32_plus", &["half_edges_of", "offsets_of", "sum_pair"]),
+    // Every kernel but the resident one folds its index, the force pass alone looks for NaN.
+    ("lib/index", &["is_finite", "thread_index"]),
 ];
 
 /// Whether `name` is one a kernel made of `parts` may bring unused.
@@ -219,7 +222,7 @@ fn may_be_unused(parts: &[&str], name: &str) -> bool {
 #[test]
 fn every_composition_is_valid_and_all_of_it_is_reached() {
     let all = composed();
-    assert!((150..800).contains(&all.len()), "{} texts", all.len());
+    assert!((150..1200).contains(&all.len()), "{} texts", all.len());
     for Composed { choice, kernel, .. } in all {
         let module = choice.module(*kernel).unwrap_or_else(|e| panic!("{choice:?}: {e}"));
         assert_eq!(module.entry_points.len(), 1);
@@ -350,6 +353,7 @@ const FEATURES: [Feature; 11] = [
 fn compiled(choice: &Choice, kernel: Kernel) -> bool {
     match kernel {
         Kernel::CheckSums => choice.plus,
+        Kernel::Resident => !choice.plus && choice.rim != RimKind::Free,
         Kernel::Rim => choice.rim == RimKind::Free,
         Kernel::Rebase => choice.rim != RimKind::None,
         _ => true,
@@ -444,7 +448,7 @@ fn the_largest_kernel_binds_what_adapters_are_asked_for() {
 fn a_folded_dispatch_meets_every_item_once() {
     // Sizes around every fold, with the index that shaders/lib/index.wgsl computes.
     for most_groups in [1, 2, 3, 7] {
-        let counts = Counts { elements: 0, nodes: 0, surface: 0, rim: 0, most_groups };
+        let counts = Counts { elements: 0, nodes: 0, surface: 0, rim: 0, chain_groups: 0, most_groups };
         for items in (1..400).chain([64 * 63, 64 * 64, 64 * 65 + 1]) {
             let [columns, rows, depth] = counts.groups(items);
             if rows > most_groups {
@@ -470,7 +474,7 @@ fn a_folded_dispatch_meets_every_item_once() {
 
 #[test]
 fn a_dispatch_beyond_one_dimension_is_folded() {
-    let counts = Counts { elements: 0, nodes: 0, surface: 0, rim: 0, most_groups: 65_535 };
+    let counts = Counts { elements: 0, nodes: 0, surface: 0, rim: 0, chain_groups: 0, most_groups: 65_535 };
     let dimension = 65_535 * 64;
     assert_eq!(counts.groups(dimension), [65_535, 1, 1]);
     for items in [dimension + 1, 2 * dimension, 2 * dimension + 1, 100_000_000, u32::MAX as usize] {

@@ -1,18 +1,24 @@
 // Impulse, works and state of a surface node.
 
 @group(0) @binding(7) var<storage, read_write> surface_sums: array<SurfaceRecord>;
+@group(0) @binding(15) var<storage, read_write> contact_states: array<u32>;
 
-fn book_contact(role: u32, moved: Moved, way: vec3f) {
-    if role == INTERIOR {
-        return;
+// Gives back what the step's sum over the body needs: force, and touching + 4096 (another state than the step before).
+fn book_contact(role: u32, moved: Moved, way: vec3f) -> vec4f {
+    let before = contact_states[role];
+    if before == 0u && moved.touches == 0u {
+        return vec4f(0.0);
     }
-    surface_sums[role].state = moved.touches;
+    contact_states[role] = moved.touches;
+    let changed = select(4096.0, 0.0, before == moved.touches);
     if moved.touches == 0u {
-        return;
+        return vec4f(vec3f(0.0), changed);
     }
-    surface_sums[role].impulse += vec4f(step.dtm * (moved.normal_force + moved.tangential_force), 0.0);
+    let force = moved.normal_force + moved.tangential_force;
+    surface_sums[role].impulse += vec4f(step.dtm * force, 0.0);
     surface_sums[role].normal_work += dot(moved.normal_force, way);
     surface_sums[role].friction_work += dot(moved.tangential_force, way);
     surface_sums[role].touching += 1u;
     surface_sums[role].sticking += select(0u, 1u, moved.touches == 2u);
+    return vec4f(force, changed + 1.0);
 }

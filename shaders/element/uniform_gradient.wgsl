@@ -55,8 +55,8 @@ fn mean_stress(f: mat3x3f) -> MeanStress {
     return MeanStress(force_matrix(f, k, first_piola(k.i1, k.i2, j), dU(j), cof, 1.0), j);
 }
 
-fn element_energy(nodes: Hex, shape: u32) -> vec3f {
-    let m = modes(load_offsets(nodes), shape);
+fn element_energy(low: Face, high: Face, shape: u32) -> vec3f {
+    let m = modes(offsets_of(low, high), shape);
     let j = determinant(m.f);
     let k = kinematics(m.f, vec3f(1.0), vec3f(0.0));
     let q2 = dot(m.h0, m.h0) + dot(m.h1, m.h1) + dot(m.h2, m.h2) + dot(m.h3, m.h3);

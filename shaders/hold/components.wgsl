@@ -1,6 +1,6 @@
 // Held components of nodes: their force is taken by whatever holds them. Bit d of a node's word: component d.
 
-@group(0) @binding(14) var<storage, read> held: array<u32>;
+@group(0) @binding(23) var<storage, read> held: array<u32>;
 
 fn moving(n: u32, f: vec3f) -> vec3f {
     let bits = held[n];

@@ -1,4 +1,4 @@
-// Stored energies of every element: (strain, hourglass, 0, smallest det F).
+// Stored energies along every chain: (strain, hourglass, 0, smallest det F).
 
 @group(0) @binding(3) var<storage, read_write> energies: array<vec4f>;
 
@@ -8,10 +8,22 @@ fn main(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let element = thread_index(group, groups, lane);
-    if element >= arrayLength(&hexes) {
+    let thread = thread_index(group, groups, lane);
+    if thread / 64u >= arrayLength(&chain_groups) {
         return;
     }
-    let e = element_energy(hexes[element], class_of[element]);
-    energies[element] = vec4f(e.x, e.y, 0.0, e.z);
+    let chains = chain_groups[thread / 64u];
+    var sum = vec4f(0.0, 0.0, 0.0, 3.0e38);
+    if lane < chains.w {
+        var at = chains.x + lane;
+        var low = load_face(at);
+        for (var level = 0u; level < chains.z; level++) {
+            let high = load_face(at + FACE);
+            let e = element_energy(low, high, class_at(chains, level, at));
+            sum = vec4f(sum.xy + e.xy, 0.0, min(sum.w, e.z));
+            low = high;
+            at += FACE;
+        }
+    }
+    energies[thread] = sum;
 }

@@ -1,28 +1,15 @@
-// Internal force of every element into its eight corner slots.
+// Internal force of every element, summed along its chain into the slots of the faces.
 
 @group(0) @binding(3) var<storage, read_write> slots: array<vec4f>;
-@group(0) @binding(4) var<storage, read_write> failure: array<atomic<u32>, 4>;
 @group(0) @binding(5) var<uniform> step: Step;
 
-// First failing step, then the smallest failing element of that step (doubled, odd: not finite).
-// Steps come in order, so whoever finds an earlier step there leaves it alone.
-fn report(element: u32, finite: bool) {
-    let before = atomicMin(&failure[0], step.index);
-    if before >= step.index {
-        atomicMin(&failure[1], 2u * element + select(1u, 0u, finite));
-    }
-}
+const NONE: u32 = 0xffffffffu;
 
-fn store(element: u32, f: Corners) {
-    let s = 8u * element;
-    slots[s] = vec4f(f.a0, 0.0);
-    slots[s + 1u] = vec4f(f.a1, 0.0);
-    slots[s + 2u] = vec4f(f.a2, 0.0);
-    slots[s + 3u] = vec4f(f.a3, 0.0);
-    slots[s + 4u] = vec4f(f.a4, 0.0);
-    slots[s + 5u] = vec4f(f.a5, 0.0);
-    slots[s + 6u] = vec4f(f.a6, 0.0);
-    slots[s + 7u] = vec4f(f.a7, 0.0);
+fn store(at: u32, f: Shared) {
+    slots[at] = vec4f(f.a, 0.0);
+    slots[at + CORNER] = vec4f(f.b, 0.0);
+    slots[at + 2u * CORNER] = vec4f(f.c, 0.0);
+    slots[at + 3u * CORNER] = vec4f(f.d, 0.0);
 }
 
 @compute @workgroup_size(64)
@@ -31,18 +18,38 @@ fn main(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let element = thread_index(group, groups, lane);
-    if element >= arrayLength(&hexes) {
+    let thread = thread_index(group, groups, lane);
+    if thread / 64u >= arrayLength(&chain_groups) {
         return;
     }
-    let result = element_force(hexes[element], class_of[element]);
-    store(element, result.f);
-    book_viscous(element, result);
-    // WGSL may assume there are no NaNs, and min() may drop one: the bits decide.
-    let f = result.f;
-    let sum = f.a0 + f.a1 + f.a2 + f.a3 + f.a4 + f.a5 + f.a6;
-    let finite = is_finite(dot(sum, vec3f(1.0))) && is_finite(result.min_j);
-    if !finite || !(result.min_j > 0.0) {
-        report(element, finite);
+    let chains = chain_groups[thread / 64u];
+    if lane >= chains.w {
+        return;
+    }
+    var at = chains.x + lane;
+    var low = load_end(at);
+    var held = Shared();
+    var power = 0.0;
+    var failed = NONE;
+    var finite = true;
+    for (var level = 0u; level < chains.z; level++) {
+        let high = load_end(at + FACE);
+        let result = element_force(low, high, class_at(chains, level, at));
+        let f = result.f;
+        store(at, Shared(held.a + f.a0, held.b + f.a1, held.c + f.a2, held.d + f.a3));
+        held = Shared(f.a4, f.a5, f.a6, f.a7);
+        power += viscous_power(result);
+        let sound = is_sound(result);
+        if failed == NONE && (!sound || !(result.min_j > 0.0)) {
+            failed = at;
+            finite = sound;
+        }
+        low = high;
+        at += FACE;
+    }
+    store(at, held);
+    book_viscous(thread, power);
+    if failed != NONE {
+        report(chain_elements[element_entry(failed)], finite);
     }
 }

@@ -1,12 +1,6 @@
-// Gather, acceleration, contact projection, integration and book-keeping of every node.
+// Gather, acceleration, contact projection, integration and book-keeping of nodes: the interior ones, or the rest.
 
 @group(0) @binding(5) var<uniform> step: Step;
-@group(0) @binding(9) var<storage, read_write> works: array<vec4f>;
-
-// (internal, body force, damping) of this step [J].
-fn node_works(node: Node, f_int: vec3f, v: vec3f, after: vec3f, way: vec3f) -> vec4f {
-    return vec4f(-dot(f_int, way), node.mass * dot(gravity(), way), damping_work(node.mass, v, after, way), 0.0);
-}
 
 @compute @workgroup_size(64)
 fn main(
@@ -14,27 +8,14 @@ fn main(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let n = thread_index(group, groups, lane);
-    if n >= arrayLength(&nodes) {
-        return;
+    let thread = thread_index(group, groups, lane);
+    var contact = vec4f(0.0);
+    if thread < node_threads() {
+        contact = take_step(node_at(thread));
     }
-    let node = nodes[n];
-    let f_int = moving(n, gather(n));
-    let x = load_position(n);
-    let v = velocities[n].xyz;
-    let moved = move_node(node, f_int, x, v);
-    let way = step.weight_before * v + step.weight_after * moved.v;
-    let rim = is_rim(node.role);
-    works[n] += node_works(node, f_int, v, moved.v, way) * vec4f(1.0, 1.0, select(1.0, 0.0, rim), 0.0);
-    if rim {
-        book_rim(node, f_int, x, v, moved, way);
-    } else {
-        book_contact(node.role, moved, way);
-    }
-    store_position(n, moved, rim);
-    velocities[n] = vec4f(moved.v, 0.0);
+    sum_step(thread / 64u, lane, contact);
     // The last thing a submission does: the host looks for it.
-    if n == 0u {
+    if thread == 0u {
         done[0] = step.index;
     }
 }

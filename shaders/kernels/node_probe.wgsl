@@ -1,8 +1,36 @@
-// The step after a window, computed but not taken: what the stored energy pairs with.
+// The step after a window, computed but not taken: what the stored energy pairs with; and the window's works, which
+// begin anew. Sums by work group: four records each.
 
 @group(0) @binding(5) var<uniform> step: Step;
-@group(0) @binding(9) var<storage, read_write> probes: array<ProbeRecord>;
-@group(0) @binding(11) var<storage, read> velocities_now: array<vec4f>;
+@group(0) @binding(13) var<storage, read_write> probes: array<vec4f>;
+@group(0) @binding(11) var<storage, read_write> velocities: array<vec4f>;
+
+// Energies (mixed kinetic, kinetic, net force^2, internal force^2); half works (internal, body force, damping, rim);
+// half works of contact (normal, friction); works of the window (internal, body force, damping).
+struct Probed { energies: vec4f, works: vec4f, contact: vec4f, window: vec4f }
+
+fn probe(n: u32) -> Probed {
+    let node = nodes[n];
+    let whole = gather(n);
+    let f_int = moving(n, whole);
+    let x = load_position(n);
+    let before = velocities[n];
+    let v = before.xyz;
+    velocities[n] = vec4f(v, 0.0);
+    let moved = move_node(node, f_int, x, v);
+    // Works over the half step before.
+    let way = step.weight_before * v;
+    let net = (node.mass / step.dtm) * (moved.v - v);
+    let rim = is_rim(node.role);
+    let own = select(1.0, 0.0, rim);
+    let energies = vec4f(
+        0.5 * node.mass * dot(v, moved.v), 0.5 * node.mass * dot(v, v), own * dot(net, net), own * dot(whole, whole));
+    let works = vec4f(
+        -dot(f_int, way), node.mass * dot(gravity(), way), own * damping_work(node.mass, v, moved.v, way),
+        (1.0 - own) * dot(net + f_int - node.mass * gravity(), way));
+    let contact = vec4f(dot(moved.normal_force, way), dot(moved.tangential_force, way), 0.0, 0.0);
+    return Probed(energies, works, contact, vec4f(before.w, take_others(n), 0.0));
+}
 
 @compute @workgroup_size(64)
 fn main(
@@ -10,25 +38,20 @@ fn main(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let n = thread_index(group, groups, lane);
-    if n >= arrayLength(&nodes) {
-        return;
+    let thread = thread_index(group, groups, lane);
+    var probed = Probed();
+    if thread < arrayLength(&nodes) {
+        probed = probe(thread);
     }
-    let node = nodes[n];
-    let whole = gather(n);
-    let f_int = moving(n, whole);
-    let x = load_position(n);
-    let v = velocities_now[n].xyz;
-    let moved = move_node(node, f_int, x, v);
-    // Works over the half step before.
-    let way = step.weight_before * v;
-    let net = (node.mass / step.dtm) * (moved.v - v);
-    let rim = is_rim(node.role);
-    let own = select(1.0, 0.0, rim);
-    probes[n].energies = vec4f(
-        0.5 * node.mass * dot(v, moved.v), 0.5 * node.mass * dot(v, v), own * dot(net, net), own * dot(whole, whole));
-    probes[n].works = vec4f(
-        -dot(f_int, way), node.mass * dot(gravity(), way), own * damping_work(node.mass, v, moved.v, way),
-        (1.0 - own) * dot(net + f_int - node.mass * gravity(), way));
-    probes[n].contact = vec4f(dot(moved.normal_force, way), dot(moved.tangential_force, way), 0.0, 0.0);
+    let energies = group_sum(lane, probed.energies);
+    let works = group_sum(lane, probed.works);
+    let contact = group_sum(lane, probed.contact);
+    let window = group_sum(lane, probed.window);
+    let first = 4u * (thread / 64u);
+    if lane == 0u && thread < arrayLength(&nodes) {
+        probes[first] = energies;
+        probes[first + 1u] = works;
+        probes[first + 2u] = contact;
+        probes[first + 3u] = window;
+    }
 }

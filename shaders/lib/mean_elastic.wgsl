@@ -2,8 +2,15 @@
 
 struct ElementForce { f: Corners, min_j: f32 }
 
-fn element_force(nodes: Hex, shape: u32) -> ElementForce {
-    let m = modes(load_offsets(nodes), shape);
+// What a thread carries from one element of a chain to the next.
+struct End { x: Face }
+
+fn load_end(at: u32) -> End {
+    return End(load_face(at));
+}
+
+fn element_force(low: End, high: End, shape: u32) -> ElementForce {
+    let m = modes(offsets_of(low.x, high.x), shape);
     let s = mean_stress(m.f);
     let k = classes[shape].hourglass_stiffness;
     let r = Modes(m.f, k * m.h0, k * m.h1, k * m.h2, k * m.h3);

@@ -7,9 +7,16 @@ fn rate_offsets(v: Corners) -> Corners {
         vec3f(0.0), v.a1 - v.a0, v.a2 - v.a0, v.a3 - v.a0, v.a4 - v.a0, v.a5 - v.a0, v.a6 - v.a0, v.a7 - v.a0);
 }
 
-fn element_force(nodes: Hex, shape: u32) -> ElementForce {
-    let m = modes(load_offsets(nodes), shape);
-    let d = modes(rate_offsets(load_velocities(nodes)), shape);
+// What a thread carries from one element of a chain to the next.
+struct End { x: Face, v: Rates }
+
+fn load_end(at: u32) -> End {
+    return End(load_face(at), load_rates(at));
+}
+
+fn element_force(low: End, high: End, shape: u32) -> ElementForce {
+    let m = modes(offsets_of(low.x, high.x), shape);
+    let d = modes(rate_offsets(rates_of(low.v, high.v)), shape);
     let s = mean_stress(m.f);
     let v = viscous_stress(m.f, d.f);
     let k = classes[shape].hourglass_stiffness;

@@ -49,8 +49,8 @@ fn point_energy(a: mat3x3f, shape: u32, q: u32) -> vec2f {
     return vec2f(geometry.det_j0 * (psi(k.i1, k.i2, j) + point_U(j)), j);
 }
 
-fn element_energy(nodes: Hex, shape: u32) -> vec3f {
-    let c = gradients(load_half_edges(nodes));
+fn element_energy(lower: Face, upper: Face, shape: u32) -> vec3f {
+    let c = gradients(half_edges_of(lower, upper));
     let e0 = point_energy(mat3x3f(c.xi.a, c.eta.a, c.zeta.a), shape, 0u);
     let e1 = point_energy(mat3x3f(c.xi.a, c.eta.b, c.zeta.b), shape, 1u);
     let e2 = point_energy(mat3x3f(c.xi.b, c.eta.a, c.zeta.c), shape, 2u);

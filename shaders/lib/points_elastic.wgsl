@@ -2,7 +2,14 @@
 
 struct ElementForce { f: Corners, min_j: f32 }
 
-fn element_force(nodes: Hex, shape: u32) -> ElementForce {
-    let forces = internal_forces(gradients(load_half_edges(nodes)), shape);
+// What a thread carries from one element of a chain to the next.
+struct End { x: Face }
+
+fn load_end(at: u32) -> End {
+    return End(load_face(at));
+}
+
+fn element_force(low: End, high: End, shape: u32) -> ElementForce {
+    let forces = internal_forces(gradients(half_edges_of(low.x, high.x)), shape);
     return ElementForce(scatter(forces.lines), forces.min_j);
 }

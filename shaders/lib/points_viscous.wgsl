@@ -25,10 +25,17 @@ fn sum_four(a: Four, b: Four) -> Four {
     return Four(a.a + b.a, a.b + b.b, a.c + b.c, a.d + b.d);
 }
 
-fn element_force(nodes: Hex, shape: u32) -> ElementForce {
-    let columns = gradients(load_half_edges(nodes));
+// What a thread carries from one element of a chain to the next.
+struct End { x: Face, v: Rates }
+
+fn load_end(at: u32) -> End {
+    return End(load_face(at), load_rates(at));
+}
+
+fn element_force(low: End, high: End, shape: u32) -> ElementForce {
+    let columns = gradients(half_edges_of(low.x, high.x));
     let elastic = internal_forces(columns, shape);
-    let viscous = viscous_forces(columns, gradients(half_edges(load_velocities(nodes))));
+    let viscous = viscous_forces(columns, gradients(half_edges(rates_of(low.v, high.v))));
     let lines = Columns(
         sum_four(elastic.lines.xi, viscous.lines.xi),
         sum_four(elastic.lines.eta, viscous.lines.eta),

@@ -2,19 +2,24 @@
 
 @group(0) @binding(10) var<storage, read> positions_in: array<vec4f>;
 
-fn load_positions(h: Hex) -> Corners {
-    return Corners(
-        positions_in[h.n0].xyz, positions_in[h.n1].xyz, positions_in[h.n2].xyz, positions_in[h.n3].xyz,
-        positions_in[h.n4].xyz, positions_in[h.n5].xyz, positions_in[h.n6].xyz, positions_in[h.n7].xyz);
+// Corners of a face.
+struct Face { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
+
+fn load_face(at: u32) -> Face {
+    return Face(
+        positions_in[chain_nodes[at]].xyz,
+        positions_in[chain_nodes[at + CORNER]].xyz,
+        positions_in[chain_nodes[at + 2u * CORNER]].xyz,
+        positions_in[chain_nodes[at + 3u * CORNER]].xyz);
 }
 
-fn load_half_edges(h: Hex) -> Columns {
-    return half_edges(load_positions(h));
+fn half_edges_of(low: Face, high: Face) -> Columns {
+    return half_edges(Corners(low.a, low.b, low.c, low.d, high.a, high.b, high.c, high.d));
 }
 
 // Differences to corner 0.
-fn load_offsets(h: Hex) -> Corners {
-    let x = load_positions(h);
+fn offsets_of(low: Face, high: Face) -> Corners {
     return Corners(
-        vec3f(0.0), x.a1 - x.a0, x.a2 - x.a0, x.a3 - x.a0, x.a4 - x.a0, x.a5 - x.a0, x.a6 - x.a0, x.a7 - x.a0);
+        vec3f(0.0), low.b - low.a, low.c - low.a, low.d - low.a,
+        high.a - low.a, high.b - low.a, high.c - low.a, high.d - low.a);
 }

@@ -3,32 +3,39 @@
 @group(0) @binding(10) var<storage, read> positions_in: array<vec4f>;
 @group(0) @binding(12) var<storage, read> positions_lo_in: array<vec4f>;
 
-fn load_hi(h: Hex) -> Corners {
-    return Corners(
-        positions_in[h.n0].xyz, positions_in[h.n1].xyz, positions_in[h.n2].xyz, positions_in[h.n3].xyz,
-        positions_in[h.n4].xyz, positions_in[h.n5].xyz, positions_in[h.n6].xyz, positions_in[h.n7].xyz);
-}
+// Corners of a face, in single precision.
+struct Part { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
 
-fn load_lo(h: Hex) -> Corners {
-    return Corners(
-        positions_lo_in[h.n0].xyz, positions_lo_in[h.n1].xyz, positions_lo_in[h.n2].xyz, positions_lo_in[h.n3].xyz,
-        positions_lo_in[h.n4].xyz, positions_lo_in[h.n5].xyz, positions_lo_in[h.n6].xyz, positions_lo_in[h.n7].xyz);
+struct Face { hi: Part, lo: Part }
+
+fn load_face(at: u32) -> Face {
+    let a = chain_nodes[at];
+    let b = chain_nodes[at + CORNER];
+    let c = chain_nodes[at + 2u * CORNER];
+    let d = chain_nodes[at + 3u * CORNER];
+    return Face(
+        Part(positions_in[a].xyz, positions_in[b].xyz, positions_in[c].xyz, positions_in[d].xyz),
+        Part(positions_lo_in[a].xyz, positions_lo_in[b].xyz, positions_lo_in[c].xyz, positions_lo_in[d].xyz));
 }
 
 fn sum_pair(a: Four, b: Four) -> Four {
     return Four(a.a + b.a, a.b + b.b, a.c + b.c, a.d + b.d);
 }
 
-fn load_half_edges(h: Hex) -> Columns {
-    let hi = half_edges(load_hi(h));
-    let lo = half_edges(load_lo(h));
+fn corners_of(low: Part, high: Part) -> Corners {
+    return Corners(low.a, low.b, low.c, low.d, high.a, high.b, high.c, high.d);
+}
+
+fn half_edges_of(low: Face, high: Face) -> Columns {
+    let hi = half_edges(corners_of(low.hi, high.hi));
+    let lo = half_edges(corners_of(low.lo, high.lo));
     return Columns(sum_pair(hi.xi, lo.xi), sum_pair(hi.eta, lo.eta), sum_pair(hi.zeta, lo.zeta));
 }
 
 // Differences to corner 0.
-fn load_offsets(h: Hex) -> Corners {
-    let x = load_hi(h);
-    let y = load_lo(h);
+fn offsets_of(low: Face, high: Face) -> Corners {
+    let x = corners_of(low.hi, high.hi);
+    let y = corners_of(low.lo, high.lo);
     return Corners(
         vec3f(0.0), (x.a1 - x.a0) + (y.a1 - y.a0), (x.a2 - x.a0) + (y.a2 - y.a0), (x.a3 - x.a0) + (y.a3 - y.a0),
         (x.a4 - x.a0) + (y.a4 - y.a0), (x.a5 - x.a0) + (y.a5 - y.a0), (x.a6 - x.a0) + (y.a6 - y.a0),

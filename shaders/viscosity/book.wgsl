@@ -1,6 +1,10 @@
-// Viscous work of the window, by element [J].
-@group(0) @binding(6) var<storage, read_write> viscous_work: array<f32>;
+// Viscous work of the window, by chain [J].
+@group(0) @binding(20) var<storage, read_write> viscous_work: array<f32>;
 
-fn book_viscous(element: u32, result: ElementForce) {
-    viscous_work[element] -= step.viscous_weight * result.viscous_power;
+fn viscous_power(result: ElementForce) -> f32 {
+    return result.viscous_power;
+}
+
+fn book_viscous(chain: u32, power: f32) {
+    viscous_work[chain] -= step.viscous_weight * power;
 }

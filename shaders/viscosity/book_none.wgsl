@@ -1,1 +1,5 @@
-fn book_viscous(element: u32, result: ElementForce) {}
+fn viscous_power(result: ElementForce) -> f32 {
+    return 0.0;
+}
+
+fn book_viscous(chain: u32, power: f32) {}

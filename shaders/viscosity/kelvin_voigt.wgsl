@@ -19,11 +19,3 @@ fn viscous_stress(a: mat3x3f, a_dot: mat3x3f) -> Viscous {
     let power = dot(sigma[0], l[0]) + dot(sigma[1], l[1]) + dot(sigma[2], l[2]);
     return Viscous(sigma * cof, power * det_a);
 }
-
-@group(0) @binding(11) var<storage, read> velocities_in: array<vec4f>;
-
-fn load_velocities(h: Hex) -> Corners {
-    return Corners(
-        velocities_in[h.n0].xyz, velocities_in[h.n1].xyz, velocities_in[h.n2].xyz, velocities_in[h.n3].xyz,
-        velocities_in[h.n4].xyz, velocities_in[h.n5].xyz, velocities_in[h.n6].xyz, velocities_in[h.n7].xyz);
-}

@@ -1,7 +1,7 @@
 //! Every buffer of a run, by the name the shaders use.
 
 use super::Gpu;
-use super::compose::FEW_CLASSES;
+use super::chains::{Chains, SHARED_CLASSES};
 use super::layout::{self, MeanClass, PointClass, PointGeometry};
 use crate::error::{Error, Result};
 use crate::model::Model;
@@ -25,6 +25,15 @@ pub struct Buffers {
 impl Buffers {
     pub fn get(&self, name: &str) -> &wgpu::Buffer {
         self.map.get(name).unwrap_or_else(|| panic!("no buffer is called {name}"))
+    }
+
+    pub fn has(&self, name: &str) -> bool {
+        self.map.contains_key(name)
+    }
+
+    /// Size of all of them [bytes].
+    pub fn bytes(&self) -> u64 {
+        self.map.values().map(wgpu::Buffer::size).sum()
     }
 
     /// A buffer with content.
@@ -51,6 +60,12 @@ impl Buffers {
         self.map.insert(name, buffer);
     }
 
+    /// A uniform buffer of `count` items of T that begins with `data`.
+    pub fn filled_uniform<T: Pod>(&mut self, gpu: &Gpu, name: &'static str, data: &[T], count: usize) {
+        self.uniform(gpu, name, count * size_of::<T>());
+        gpu.queue.write_buffer(self.get(name), 0, bytemuck::cast_slice(data));
+    }
+
     /// The plan's uniform buffer, and a small uniform.
     pub fn uniform(&mut self, gpu: &Gpu, name: &'static str, bytes: usize) {
         let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -64,30 +79,27 @@ impl Buffers {
 }
 
 fn usage() -> wgpu::BufferUsages {
-    wgpu::BufferUsages::STORAGE
-        | wgpu::BufferUsages::UNIFORM
-        | wgpu::BufferUsages::COPY_DST
-        | wgpu::BufferUsages::COPY_SRC
+    wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC
 }
 
 /// What may not fit: name, bytes, and the limit it meets.
-fn needs(gpu: &Gpu, model: &Model, road: bool) -> [(&'static str, u64, u64); 3] {
+fn needs(gpu: &Gpu, model: &Model, chains: &Chains, road: bool) -> [(&'static str, u64, u64); 3] {
     let binding = gpu.report.storage_binding.min(gpu.report.buffer);
-    let (elements, nodes) = (model.element_count() as u64, model.node_count() as u64);
+    let (slots, nodes) = (chains.slot_count() as u64, model.node_count() as u64);
     let surface = if road { model.mesh.surface.len() as u64 } else { 0 };
     let vector = size_of::<[f32; 4]>() as u64;
     let record = size_of::<layout::SurfaceRecord>() as u64;
     [
-        ("corner forces [bytes]", 8 * vector * elements, binding),
-        ("node records [bytes]", size_of::<layout::ProbeRecord>() as u64 * nodes, binding),
+        ("corner forces [bytes]", vector * slots, binding),
+        ("positions [bytes]", vector * nodes, binding),
         // Sums, positions and velocities of the surface come back through one buffer; the rest is small.
-        ("a sample's surface [bytes]", (record + 2 * vector) * surface + 65_536, gpu.report.buffer),
+        ("a sample's surface [bytes]", (record + 2 * vector + 4) * surface + 65_536, gpu.report.buffer),
     ]
 }
 
 /// Refuses a scene that the adapter cannot hold, before anything starts.
-pub fn check_limits(gpu: &Gpu, model: &Model, road: bool) -> Result<()> {
-    for (what, need, limit) in needs(gpu, model, road) {
+pub fn check_limits(gpu: &Gpu, model: &Model, chains: &Chains, road: bool) -> Result<()> {
+    for (what, need, limit) in needs(gpu, model, chains, road) {
         if need > limit {
             let fits = (limit as f64 / need as f64 * model.element_count() as f64) as u64;
             let adapter = gpu.report.name.clone();
@@ -102,21 +114,26 @@ pub fn vec4(v: [f64; 3]) -> [f32; 4] {
     [v[0] as f32, v[1] as f32, v[2] as f32, 0.0]
 }
 
-/// Shape classes as the element's shader reads them: from a uniform buffer where they are few, which adapters keep closer
-/// than storage.
-pub fn upload_classes(buffers: &mut Buffers, gpu: &Gpu, model: &Model) {
+/// Shape classes as the element's shader reads them.
+pub fn upload_classes(buffers: &mut Buffers, gpu: &Gpu, model: &Model, shared: bool) {
     match model.element {
-        Element::UniformGradient { .. } => upload_table(buffers, gpu, model, mean_class),
-        Element::Q1p0 | Element::Full => upload_table(buffers, gpu, model, point_class),
+        Element::UniformGradient { .. } => {
+            let classes: Vec<MeanClass> = model.classes.iter().map(mean_class).collect();
+            put(buffers, gpu, &classes, shared);
+        }
+        Element::Q1p0 | Element::Full => {
+            let classes: Vec<PointClass> = model.classes.iter().map(point_class).collect();
+            put(buffers, gpu, &classes, shared);
+        }
     }
 }
 
-fn upload_table<C: Pod>(buffers: &mut Buffers, gpu: &Gpu, model: &Model, class: fn(&Class<f64>) -> C) {
-    let mut table: Vec<C> = model.classes.iter().map(class).collect();
-    if table.len() <= FEW_CLASSES {
-        table.resize(FEW_CLASSES, C::zeroed());
+fn put<T: Pod>(buffers: &mut Buffers, gpu: &Gpu, classes: &[T], shared: bool) {
+    if shared {
+        buffers.filled_uniform(gpu, "classes", classes, SHARED_CLASSES);
+    } else {
+        buffers.filled(gpu, "classes", classes);
     }
-    buffers.filled(gpu, "classes", &table);
 }
 
 fn point_class(class: &Class<f64>) -> PointClass {

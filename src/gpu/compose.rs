@@ -15,8 +15,8 @@ macro_rules! shaders {
     };
 }
 shaders!(
-    "class/few",
-    "class/many",
+    "class/own",
+    "class/shared",
     "contact/areas",
     "contact/areas_none",
     "contact/book",
@@ -28,6 +28,9 @@ shaders!(
     "contact/landing_none",
     "contact/none",
     "contact/project",
+    "contact/step",
+    "contact/step_none",
+    "contact/step_resident",
     "damping/book",
     "damping/book_none",
     "damping/inertia",
@@ -52,12 +55,15 @@ shaders!(
     "kernels/rebase",
     "kernels/rebase_plus",
     "kernels/reduce",
+    "kernels/resident",
     "kernels/rim",
     "kernels/surface_state",
-    "lib/elements",
+    "lib/chains",
     "lib/gather",
     "lib/gravity",
     "lib/gravity_none",
+    "lib/element_report",
+    "lib/group_sum",
     "lib/hex8",
     "lib/index",
     "lib/invariants_i1",
@@ -70,14 +76,19 @@ shaders!(
     "lib/points_elastic",
     "lib/points_viscous",
     "lib/recip_cbrt",
+    "lib/take_step",
     "lib/two_sum",
     "material/mooney_rivlin",
     "material/mooney_rivlin_eq4",
     "material/neo_hookean",
+    "nodes/all",
+    "nodes/boundary",
+    "nodes/interior",
     "position/f32",
     "position/f32_plus",
     "position/now_f32",
     "position/now_f32_plus",
+    "position/resident",
     "position/store_f32",
     "position/store_f32_plus",
     "rim/book",
@@ -91,6 +102,12 @@ shaders!(
     "viscosity/book",
     "viscosity/book_none",
     "viscosity/kelvin_voigt",
+    "viscosity/rates",
+    "viscosity/rates_resident",
+    "works/book",
+    "works/book_none",
+    "works/take",
+    "works/take_none",
 );
 
 /// Entry points, one a file of `shaders/kernels`.
@@ -98,7 +115,11 @@ shaders!(
 pub enum Kernel {
     ElementForce,
     ElementEnergy,
+    /// Interior nodes; those of the road and the rim.
     Node,
+    Boundary,
+    /// Many steps of a small mesh in plain f32, its rim prescribed or none.
+    Resident,
     NodeProbe,
     Rim,
     SurfaceState,
@@ -131,13 +152,9 @@ pub struct Choice {
     pub rim: RimKind,
     /// Positions as hi + lo pairs.
     pub plus: bool,
-    /// The shape classes fit in a uniform buffer: at most [`FEW_CLASSES`].
-    pub few_classes: bool,
+    /// Few shape classes, the same along all chains of a work group.
+    pub shared_classes: bool,
 }
-
-/// Length of the table of shape classes in a uniform buffer, as in `shaders/class/few.wgsl`: within the 64 KiB that
-/// every adapter binds. A generated ring has one class a radial layer.
-pub const FEW_CLASSES: usize = 48;
 
 /// A friction law and what finds the force with it.
 fn friction_parts(law: &Friction) -> Vec<&'static str> {
@@ -156,13 +173,23 @@ impl Choice {
     /// Parts of a kernel, in reading order.
     pub fn parts(&self, kernel: Kernel) -> Vec<&'static str> {
         match kernel {
-            Kernel::ElementForce => [self.element_parts(), self.force_parts()].concat(),
-            Kernel::ElementEnergy => [vec!["kernels/element_energy"], self.element_parts()].concat(),
-            Kernel::Node => [vec!["kernels/node"], self.node_parts(), self.booking_parts()].concat(),
-            Kernel::NodeProbe => {
-                [vec!["kernels/node_probe", self.now()], self.node_parts(), vec![self.damping_book()]]
-                    .concat()
+            Kernel::ElementForce => {
+                let rates: &[&str] = if self.viscous { &["viscosity/rates"] } else { &[] };
+                let own = &["kernels/element_force", self.position()];
+                [own, rates, &self.element_parts(), &self.force_parts()].concat()
             }
+            Kernel::ElementEnergy => {
+                [vec!["kernels/element_energy", self.position()], self.element_parts()].concat()
+            }
+            Kernel::Resident => self.resident_parts(),
+            Kernel::Node => self.interior().step_parts("nodes/interior"),
+            Kernel::Boundary => self.step_parts("nodes/boundary"),
+            Kernel::NodeProbe => [
+                vec!["kernels/node_probe", "lib/group_sum", self.now(), self.damping_book()],
+                vec![if self.other_works() { "works/take" } else { "works/take_none" }],
+                self.node_parts(),
+            ]
+            .concat(),
             Kernel::Rim => {
                 vec!["kernels/rim", "lib/gather", "lib/nodes", self.now(), self.gravity_part()]
             }
@@ -185,19 +212,18 @@ impl Choice {
             }
             Law::MooneyRivlinEq4 { .. } => vec!["material/mooney_rivlin_eq4", "lib/invariants_i2"],
         };
-        let position = if self.plus { "position/f32_plus" } else { "position/f32" };
+        let classes = if self.shared_classes { "class/shared" } else { "class/own" };
         let element = match self.element {
             Element::Q1p0 => vec!["element/q1p0", "lib/points"],
             Element::Full => vec!["element/full", "lib/points"],
             Element::UniformGradient { .. } => vec!["element/uniform_gradient"],
         };
-        let classes = if self.few_classes { "class/few" } else { "class/many" };
-        [element, vec![classes, "lib/elements", "lib/hex8", "lib/index", position], law].concat()
+        [element, vec!["lib/chains", classes, "lib/hex8", "lib/index"], law].concat()
     }
 
     fn force_parts(&self) -> Vec<&'static str> {
         let mean = matches!(self.element, Element::UniformGradient { .. });
-        let mut parts = vec!["kernels/element_force"];
+        let mut parts = vec!["lib/element_report"];
         parts.extend(match (mean, self.viscous) {
             (false, false) => vec!["lib/points_elastic", "viscosity/book_none"],
             (false, true) => vec!["lib/points_viscous", "viscosity/kelvin_voigt", "viscosity/book"],
@@ -207,8 +233,30 @@ impl Choice {
         parts
     }
 
+    fn position(&self) -> &'static str {
+        if self.plus { "position/f32_plus" } else { "position/f32" }
+    }
+
+    /// Element and node pass in one.
+    fn resident_parts(&self) -> Vec<&'static str> {
+        let mut parts = vec!["kernels/resident", "position/resident", "nodes/all", "lib/take_step"];
+        parts.extend(if self.viscous { vec!["viscosity/rates_resident"] } else { vec![] });
+        parts.extend(if self.road { vec!["contact/step_resident"] } else { vec!["contact/step_none"] });
+        parts.extend(
+            [self.element_parts(), self.force_parts(), self.move_parts(), self.book_parts()].concat(),
+        );
+        // The index folds dispatches of both passes.
+        let mut met = std::collections::BTreeSet::new();
+        parts.retain(|part| met.insert(*part));
+        parts
+    }
+
     fn node_parts(&self) -> Vec<&'static str> {
-        let mut parts = vec!["lib/gather", "lib/nodes", "lib/index", "lib/move_node", self.gravity_part()];
+        [vec!["lib/gather"], self.move_parts()].concat()
+    }
+
+    fn move_parts(&self) -> Vec<&'static str> {
+        let mut parts = vec!["lib/nodes", "lib/index", "lib/move_node", self.gravity_part()];
         parts.push(if self.damping { "damping/mass" } else { "damping/none" });
         parts.extend(match self.rim {
             RimKind::None => vec!["rim/none"],
@@ -229,12 +277,40 @@ impl Choice {
         parts
     }
 
-    fn booking_parts(&self) -> Vec<&'static str> {
+    /// What a node needs that has neither road nor rim.
+    fn interior(&self) -> Choice {
+        Choice { road: false, friction: None, rim: RimKind::None, ..*self }
+    }
+
+    /// Whether works other than the internal one are booked by node.
+    pub fn other_works(&self) -> bool {
+        self.gravity || self.damping
+    }
+
+    /// The node kernel over `nodes`.
+    fn step_parts(&self, nodes: &'static str) -> Vec<&'static str> {
+        [vec!["kernels/node", "lib/take_step", nodes], self.node_parts(), self.booking_parts()].concat()
+    }
+
+    fn book_parts(&self) -> Vec<&'static str> {
         let mut parts = vec![
-            self.damping_book(),
+            if self.other_works() { "works/book" } else { "works/book_none" },
             if self.rim == RimKind::None { "rim/book_none" } else { "rim/book" },
-            if self.road { "contact/book" } else { "contact/book_none" },
         ];
+        if self.other_works() {
+            parts.push(self.damping_book());
+        }
+        parts.push(if self.road { "contact/book" } else { "contact/book_none" });
+        parts
+    }
+
+    fn booking_parts(&self) -> Vec<&'static str> {
+        let mut parts = self.book_parts();
+        parts.extend(if self.road {
+            vec!["contact/step", "lib/group_sum"]
+        } else {
+            vec!["contact/step_none"]
+        });
         parts.extend(match (self.plus, self.road) {
             (false, _) => vec!["position/store_f32"],
             (true, false) => vec!["position/store_f32_plus", "lib/two_sum", "contact/landing_none"],

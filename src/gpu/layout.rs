@@ -72,6 +72,7 @@ shared! {
         index: u32,
         viscous_weight: f32,
         spin: f32,
+        /// 0.
         pad: u32,
         axle: [f32; 4],
         axle_velocity: [f32; 4],
@@ -84,6 +85,11 @@ shared! {
         rate2: [f32; 4],
         /// Loads on x, y, z [N] and spin [N m].
         load: [f32; 4],
+        /// Its place in the submission.
+        slot: u32,
+        pad1: u32,
+        pad2: u32,
+        pad3: u32,
     }
 
     /// Reference geometry at a Gauss point: M = J0^-1 J0^-T (diagonal; xy, xz, yz) and det J0.
@@ -105,22 +111,14 @@ shared! {
     /// Sums of a rim node over a window: impulse [N s] and rim work [J]; moment impulse [N m s].
     RimSum { impulse: [f32; 4], moment: [f32; 4] }
 
-    /// Sums of a surface node over a window, and its state in the last step (0 free, 1 slides, 2 sticks).
+    /// Sums of a surface node over a window.
     SurfaceRecord {
         impulse: [f32; 4],
         normal_work: f32,
         friction_work: f32,
         touching: u32,
         sticking: u32,
-        state: u32,
-        pad0: u32,
-        pad1: u32,
-        pad2: u32,
     }
-
-    /// A node in the step after a window: energies (mixed kinetic, kinetic, net force^2, internal force^2), half
-    /// works (internal, body force, damping, rim), contact half works (normal, friction).
-    ProbeRecord { energies: [f32; 4], works: [f32; 4], contact: [f32; 4] }
 
     /// State of a rim with free components: moves since the window began (x, y, z, spin), their rates, and the pose.
     RimState {
@@ -141,6 +139,9 @@ shared! {
         rate1: [f32; 4],
         rate2: [f32; 4],
     }
+
+    /// Steps of a submission that one dispatch takes.
+    Batch { steps: u32, pad0: u32, pad1: u32, pad2: u32 }
 
     /// A move of the frame's origin [m].
     Shift { by: [f32; 4] }

@@ -1,6 +1,7 @@
 //! The GPU engine: the explicit loop as WGSL compute shaders.
 
 mod buffers;
+pub mod chains;
 mod check;
 pub mod compose;
 mod device;
@@ -9,9 +10,14 @@ pub mod layout;
 pub mod limits;
 pub mod program;
 mod readback;
+mod resident;
 mod rim;
+mod sample;
 mod stage;
+mod steps;
 mod timing;
+mod trial;
+mod upload;
 mod verdict;
 
 pub use device::{AdapterReport, Gpu, STORAGE_BUFFERS, adapters};

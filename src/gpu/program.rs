@@ -72,8 +72,8 @@ pub fn bindings(module: &naga::Module) -> Vec<Binding> {
 #[derive(Debug, Clone, Default)]
 pub struct Programs(Arc<Mutex<HashMap<Key, Program>>>);
 
-/// Text and the bits of the constants it declares.
-type Key = (String, Vec<(String, u64)>);
+/// Text, whether it is checked, and the bits of the constants it declares.
+type Key = (String, bool, Vec<(String, u64)>);
 
 /// A pipeline and what it binds; a clone is the same pipeline.
 #[derive(Debug, Clone)]
@@ -106,7 +106,7 @@ impl Program {
         let declared = |name: &str| module.overrides.iter().any(|(_, o)| o.name.as_deref() == Some(name));
         let constants: Vec<(&str, f64)> = constants.iter().copied().filter(|(n, _)| declared(n)).collect();
         let bits = constants.iter().map(|(name, value)| (name.to_string(), value.to_bits())).collect();
-        let key = (text, bits);
+        let key = (text, gpu.checked, bits);
         let known = |gpu: &Gpu| gpu.programs.0.lock().expect("no one panics holding it").get(&key).cloned();
         if let Some(program) = known(gpu) {
             return Ok(program);
@@ -133,8 +133,7 @@ impl Program {
             label: Some(label),
             source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(module)),
         };
-        // Bounds checks and loop guards cost a good part of a memory-bound kernel; debug builds (the tests) keep them.
-        let checks = if cfg!(debug_assertions) {
+        let checks = if gpu.checked {
             wgpu::ShaderRuntimeChecks::checked()
         } else {
             wgpu::ShaderRuntimeChecks::unchecked()

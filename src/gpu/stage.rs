@@ -5,6 +5,7 @@ use super::buffers::Buffers;
 use super::compose::{Choice, Kernel, RimKind};
 use super::engine::canonical;
 use super::program::Program;
+use super::resident::Shape;
 use super::rim::FreeRim;
 use crate::engine::StageSetup;
 use crate::error::Result;
@@ -36,7 +37,11 @@ impl Bound {
 
 /// The stage's programs.
 pub struct StagePrograms {
+    /// Interior nodes, and those of the road and the rim.
     pub node: Bound,
+    pub boundary: Option<Bound>,
+    /// All of it in one work group.
+    pub resident: Option<Bound>,
     pub probe: Bound,
     /// Free rim: its step, and the same on a copy of its state for the probe.
     pub rim: Option<Bound>,
@@ -52,6 +57,7 @@ impl StagePrograms {
         buffers: &Buffers,
         setup: &StageSetup,
         rim: &FreeRim,
+        shape: Option<Shape>,
     ) -> Result<StagePrograms> {
         let choice = choice.for_stage(setup);
         let constants = [constants, &stage_constants(setup, rim)].concat();
@@ -65,7 +71,21 @@ impl StagePrograms {
         } else {
             (None, None)
         };
+        let boundary = if choice.road || choice.rim != RimKind::None {
+            Some(Bound::new(gpu, program(Kernel::Boundary)?, of))
+        } else {
+            None
+        };
+        let resident = match shape {
+            Some(shape) if choice.rim != RimKind::Free => {
+                let constants = [&constants[..], &shape.constants()].concat();
+                Some(Bound::new(gpu, Program::new(gpu, &choice, Kernel::Resident, &constants)?, of))
+            }
+            _ => None,
+        };
         Ok(StagePrograms {
+            resident,
+            boundary,
             node: Bound::new(gpu, program(Kernel::Node)?, of),
             probe: Bound::new(gpu, program(Kernel::NodeProbe)?, of_probe),
             rim,

@@ -8,13 +8,14 @@ use crate::error::Result;
 use crate::physics::rim::Coordinates;
 use std::time::Instant;
 
-/// Steps timed a submission: two timestamps a pass and three passes a step stay below wgpu's 4,096 a query set.
+/// Steps timed a submission: two timestamps a pass and four passes a step stay within wgpu's 4,096 a query set.
 const STEPS: usize = 512;
 
 /// One pass of a step, over all timed steps.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct PassTime {
-    /// Name of the kernel: `element_force`, `rim`, `node`.
+    /// Name of the kernel: `element_force`, `rim`, `node` (interior), `boundary` (road and rim);
+    /// or `resident`, which is all of them.
     pub kernel: String,
     /// Seconds on the device, all timed steps together; `None` where the adapter has no timestamps.
     pub seconds: Option<f64>,
@@ -52,7 +53,7 @@ impl GpuEngine {
             Ok(())
         })?;
         let wall = begun.elapsed().as_secs_f64();
-        let time = |(k, pass): (usize, super::engine::Pass)| PassTime {
+        let time = |(k, pass): (usize, super::steps::Pass)| PassTime {
             kernel: pass.name.to_string(),
             seconds: if stamps { seconds.get(k).copied() } else { None },
             bytes: pass.program.touched,
@@ -69,9 +70,10 @@ impl GpuEngine {
     fn submit_timed(&mut self, steps: &[Step], starts: &[Coordinates], stamps: bool) -> Result<Vec<f64>> {
         self.write_steps(steps, starts);
         let passes = self.passes();
-        let clock = Clock::new(&self.gpu, passes.len() * steps.len());
+        let rounds = self.rounds(steps.len());
+        let clock = Clock::new(&self.gpu, passes.len() * rounds);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        for slot in 0..steps.len() {
+        for slot in 0..rounds {
             for (k, pass) in passes.iter().enumerate() {
                 let timestamp_writes = stamps.then(|| clock.writes(slot * passes.len() + k));
                 let descriptor = wgpu::ComputePassDescriptor { label: Some(pass.name), timestamp_writes };
@@ -81,7 +83,7 @@ impl GpuEngine {
         let each = clock.read(&self.gpu, encoder)?;
         let sum = |k: usize| each.iter().skip(k).step_by(passes.len()).sum();
         let seconds = (0..passes.len()).map(sum).collect();
-        self.took(steps.len());
+        self.took(steps)?;
         Ok(seconds)
     }
 }

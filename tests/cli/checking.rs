@@ -96,8 +96,8 @@ fn memory_grows_with_the_mesh() {
         let buffers = check["gpu"]["buffers"].as_array().unwrap().clone();
         buffers.iter().find(|b| b["name"] == "slots").unwrap()["bytes"].as_u64().unwrap()
     };
-    // Eight corner forces of four single-precision numbers an element.
-    assert_eq!((slots("[2, 2, 2]"), slots("[4, 5, 6]")), (8 * 128, 120 * 128));
+    // Four single-precision numbers for each of eight corners of 64 elements side by side, and as many again.
+    assert_eq!((slots("[2, 2, 2]"), slots("[4, 5, 6]")), (64 * 128, 128 * 128));
 }
 
 #[test]

@@ -95,3 +95,30 @@ pub fn exact(gpu: &Gpu) {
         }
     }
 }
+
+/// Contact step by step is what the windows hold node by node: impulses and node-steps; and a node that changes its
+/// state has touched before or after. Sums in single precision of some hundred numbers: 1e-5.
+pub fn steps_add_up(gpu: &Gpu) {
+    let (scene, model, plan) = block(&[]);
+    for who in [Who::Gpu, Who::Plus] {
+        let (mut impulse, mut changes) = ([0.0; 3], 0);
+        for ((window, _), steps) in track(gpu, who, &model, &scene, &plan).0.iter().zip(&plan.windows) {
+            assert_eq!(window.step_contact.len(), steps.len());
+            let by_step = |d: usize| window.step_contact.iter().map(|s| s.force[d] * s.dtm).sum::<f64>();
+            let by_node = |d: usize| window.surface.iter().map(|s| s.impulse[d]).sum::<f64>();
+            let size = window.surface.iter().map(|s| dot(s.impulse, s.impulse).sqrt()).sum::<f64>();
+            for d in 0..3 {
+                let [step, node] = [by_step(d), by_node(d)];
+                assert!((step - node).abs() <= 1e-5 * size, "{who:?}: {step} by steps, {node} by nodes");
+                impulse[d] += step;
+            }
+            let touching: u32 = window.step_contact.iter().map(|s| s.touching).sum();
+            assert_eq!(touching, window.surface.iter().map(|s| s.touching).sum::<u32>());
+            let last = window.step_contact.last().unwrap().touching;
+            assert_eq!(last as usize, window.surface.iter().filter(|s| s.touches).count());
+            changes += window.step_contact.iter().map(|s| s.changes).sum::<u32>();
+            assert!(window.step_contact.iter().zip(steps).all(|(s, step)| s.dtm == step.dtm()));
+        }
+        assert!(impulse[2] > 0.0 && changes > 0, "{who:?}: {impulse:?} N s, {changes} changes");
+    }
+}

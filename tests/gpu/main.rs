@@ -13,6 +13,7 @@ mod far;
 mod forces;
 mod laws;
 mod repeat;
+mod resident;
 mod rig;
 mod rim;
 mod rolling;
@@ -27,7 +28,7 @@ use std::sync::Arc;
 
 type Check = fn(&Gpu);
 
-const CHECKS: [(&str, Check); 19] = [
+const CHECKS: [(&str, Check); 21] = [
     ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
     ("forces_as_pairs_are_the_cpus", forces::pairs),
     ("a_step_with_everything_is_the_cpus", steps::everything),
@@ -40,12 +41,14 @@ const CHECKS: [(&str, Check); 19] = [
     ("a_rerun_is_the_same_to_the_bit", repeat::bit_identical),
     ("far_from_the_origin_forces_are_the_same", far::offset),
     ("the_frame_follows_a_fast_wheel", far::followed),
+    ("a_mesh_in_one_work_group_moves_as_elsewhere", resident::agrees),
     ("timed_steps_are_the_steps", timing::passes),
     ("limits_of_the_adapter_are_measured", timing::limits),
     ("a_run_that_goes_wrong_says_where", errors::failures),
     ("what_does_not_fit_is_refused", errors::limits),
     ("what_wgpu_refuses_is_an_error", errors::device_errors),
     ("friction_laws_and_holds_are_the_cpus", laws::friction_and_holds),
+    ("contact_step_by_step_adds_up", contact::steps_add_up),
     ("nothing_penetrates_and_what_sticks_stays", contact::exact),
 ];
 

@@ -12,19 +12,22 @@ pub fn passes(gpu: &Gpu) {
     let scene = scene("lat100_straight_viscous", &["body.mesh.elements=[20, 3, 3]"]);
     let model = Model::new(&scene).unwrap();
     let mut plan = Plan::of_first_stage(&scene, &model, safe_step(&model), 1, 60);
-    for free in [None, Some(0.2)] {
+    let each: &[&str] = &["element_force", "node", "boundary"];
+    let with_rim: &[&str] = &["element_force", "rim", "node", "boundary"];
+    for (free, resident, expected) in
+        [(None, true, &["resident"][..]), (None, false, each), (Some(0.2), true, with_rim)]
+    {
         plan.setup.free[2] = free;
         let [mut plain, mut timed] = [0, 1].map(|_| on_device(gpu, &model, &scene, false));
         for engine in [&mut plain, &mut timed] {
             engine.begin_stage(&plan.setup).unwrap();
+            engine.set_resident(resident).unwrap();
         }
         plain.advance(&plan.windows[0]).unwrap();
         let times = timed.timed_advance(&plan.windows[0]).unwrap();
         assert!(plain.state().unwrap() == timed.state().unwrap(), "timing changes the state");
         assert_eq!(plain.sample(&plan.next).unwrap(), timed.sample(&plan.next).unwrap());
         let names: Vec<&str> = times.passes.iter().map(|p| p.kernel.as_str()).collect();
-        let expected: &[&str] =
-            if free.is_some() { &["element_force", "rim", "node"] } else { &["element_force", "node"] };
         assert_eq!(names, expected);
         assert_eq!(times.steps, 60);
         assert!(times.steps_per_submit >= 1);

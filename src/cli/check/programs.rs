@@ -6,7 +6,8 @@ use naga::{AddressSpace, Module, StorageAccess, TypeInner};
 use serde::Serialize;
 
 use crate::engine::StageSetup;
-use crate::gpu::compose::{Choice, FEW_CLASSES, Kernel, RimKind};
+use crate::gpu::chains::{self, Chains};
+use crate::gpu::compose::{Choice, Kernel, RimKind};
 use crate::model::Model;
 use crate::scene::{Drive, Scene};
 use crate::{Error, Result};
@@ -17,7 +18,7 @@ pub struct GpuPlan {
     pub programs: Vec<Program>,
     /// Buffers that grow with the mesh or that programs share.
     pub buffers: Vec<Buffer>,
-    /// Their sum; copies for trial states and read-back come on top.
+    /// Their sum; small sums and what is read back come on top.
     pub bytes: u64,
 }
 
@@ -60,16 +61,17 @@ impl GpuPlan {
     /// [`Error::Device`](crate::Error::Device) if a program cannot be composed.
     pub fn of(scene: &Scene, model: &Model) -> Result<GpuPlan> {
         let mut programs: Vec<Program> = Vec::new();
+        let chains = Chains::new(model, chains::longest(false, model.element_count()));
+        let scene_choice = choice(scene, &chains);
         for (kernel, runs) in scene_kernels(scene) {
-            programs.push(program(&choice(scene, model), kernel, runs)?);
+            programs.push(program(&scene_choice, kernel, runs)?);
         }
         for stage in &scene.stages {
             let free = stage.rim.drives().map(|d| match d {
                 Drive::Free { mass, .. } => Some(mass),
                 _ => None,
             });
-            let choice =
-                choice(scene, model).for_stage(&StageSetup { mass_damping: stage.mass_damping, free });
+            let choice = scene_choice.for_stage(&StageSetup { mass_damping: stage.mass_damping, free });
             for (kernel, runs) in stage_kernels(&choice) {
                 let new = program(&choice, kernel, runs)?;
                 match programs.iter_mut().find(|p| p.parts == new.parts) {
@@ -78,13 +80,13 @@ impl GpuPlan {
                 }
             }
         }
-        let buffers = buffers(&programs, model);
+        let buffers = buffers(&programs, model, &chains);
         Ok(GpuPlan { bytes: buffers.iter().map(|b| b.bytes).sum(), programs, buffers })
     }
 }
 
 /// What the scene needs, whatever the stage.
-fn choice(scene: &Scene, model: &Model) -> Choice {
+fn choice(scene: &Scene, chains: &Chains) -> Choice {
     Choice {
         element: scene.body.element,
         law: scene.body.law,
@@ -96,7 +98,7 @@ fn choice(scene: &Scene, model: &Model) -> Choice {
         damping: false,
         rim: if scene.rim.is_some() { RimKind::Prescribed } else { RimKind::None },
         plus: false,
-        few_classes: model.classes.len() <= FEW_CLASSES,
+        shared_classes: chains.shared_classes,
     }
 }
 
@@ -116,6 +118,9 @@ fn scene_kernels(scene: &Scene) -> Vec<(Kernel, &'static str)> {
 /// Programs that depend on the stage's damping and rim.
 fn stage_kernels(choice: &Choice) -> Vec<(Kernel, &'static str)> {
     let mut kernels = vec![(Kernel::Node, "every step"), (Kernel::NodeProbe, "every window")];
+    if choice.road || choice.rim != RimKind::None {
+        kernels.insert(1, (Kernel::Boundary, "every step"));
+    }
     if choice.rim == RimKind::Free {
         kernels.insert(0, (Kernel::Rim, "every step"));
     }
@@ -165,11 +170,11 @@ fn bindings(module: &Module) -> Result<Vec<Binding>> {
 }
 
 /// Buffers behind the bindings: programs that read what others write call the same buffer by another name.
-fn buffers(programs: &[Program], model: &Model) -> Vec<Buffer> {
+fn buffers(programs: &[Program], model: &Model, chains: &Chains) -> Vec<Buffer> {
     let mut by_name: BTreeMap<&str, Buffer> = BTreeMap::new();
     for binding in programs.iter().flat_map(|p| &p.bindings) {
         let name = binding.name.trim_end_matches("_in").trim_end_matches("_now");
-        let entries = if binding.array { entries(name, model) } else { Some(1) };
+        let entries = if binding.array { entries(name, model, chains) } else { Some(1) };
         if let Some(entries) = entries {
             let bytes = entries * u64::from(binding.stride);
             by_name.entry(name).or_insert(Buffer { name: name.into(), entries, bytes });
@@ -181,19 +186,22 @@ fn buffers(programs: &[Program], model: &Model) -> Vec<Buffer> {
 }
 
 /// Entries of an array on this mesh; `None`: it is bound to other arrays, or does not grow with the mesh.
-fn entries(name: &str, model: &Model) -> Option<u64> {
+fn entries(name: &str, model: &Model, chains: &Chains) -> Option<u64> {
     let mesh = &model.mesh;
     let count = match name {
-        "hexes" | "class_of" | "energies" | "viscous_work" => model.element_count(),
-        "slots" | "corners" => 8 * model.element_count(),
-        "classes" if model.classes.len() <= FEW_CLASSES => FEW_CLASSES,
+        "chain_groups" => chains.groups.len(),
+        "chain_nodes" | "slots" => chains.slot_count(),
+        "chain_classes" => chains.classes.len(),
+        "chain_elements" => chains.elements.len(),
+        "energies" | "viscous_work" => chains::LANES * chains.groups.len(),
+        "corners" => chains.slots.len(),
+        "classes" if chains.shared_classes => chains::SHARED_CLASSES,
         "classes" => model.classes.len(),
         "corner_start" => model.node_count() + 1,
-        "nodes" | "positions" | "positions_lo" | "velocities" | "forces" | "works" | "probes" => {
-            model.node_count()
-        }
+        "nodes" | "positions" | "positions_lo" | "velocities" | "works" | "held" => model.node_count(),
+        "boundary" => mesh.surface.len() + mesh.rim.len(),
         "rim_nodes" | "rim_arms" | "rim_sums" => mesh.rim.len(),
-        "surface_nodes" | "surface_sums" => mesh.surface.len(),
+        "surface_nodes" | "surface_sums" | "contact_states" | "inverse_areas" => mesh.surface.len(),
         "surface_states" => 2 * mesh.surface.len(),
         _ => return None,
     };

@@ -1,0 +1,101 @@
+// Many steps of a small mesh by one work group: positions and forces stay in its memory, and between two passes there
+// is a barrier instead of a dispatch. Twin of element_force and node, with the same parts.
+
+override threads: u32;
+// Rounds of `threads` chains, and faces of the longest chain.
+override rounds: u32;
+override faces: u32;
+
+@group(0) @binding(17) var<storage, read> plan: array<Step>;
+@group(0) @binding(18) var<uniform> batch: Batch;
+
+var<workgroup> step: Step;
+
+// Adds the forces on one face of each chain to the nodes, corner by corner: chains side by side share no corner of the
+// same number, so no two threads meet, and the order is always the same.
+fn add_face(at: u32, there: bool, f: Shared) {
+    if there {
+        add_force(chain_nodes[at], f.a);
+    }
+    workgroupBarrier();
+    if there {
+        add_force(chain_nodes[at + CORNER], f.b);
+    }
+    workgroupBarrier();
+    if there {
+        add_force(chain_nodes[at + 2u * CORNER], f.c);
+    }
+    workgroupBarrier();
+    if there {
+        add_force(chain_nodes[at + 3u * CORNER], f.d);
+    }
+    workgroupBarrier();
+}
+
+// Forces of one chain a thread.
+fn assemble(chain: u32) {
+    var length = 0u;
+    var chains = vec4u(0u);
+    if chain / 64u < arrayLength(&chain_groups) {
+        chains = chain_groups[chain / 64u];
+        length = select(0u, chains.z, chain % 64u < chains.w);
+    }
+    var at = chains.x + chain % 64u;
+    var low = End();
+    if length > 0u {
+        low = load_end(at);
+    }
+    var held = Shared();
+    var power = 0.0;
+    for (var level = 0u; level < faces; level++) {
+        var sum = held;
+        if level < length {
+            let high = load_end(at + FACE);
+            let result = element_force(low, high, class_at(chains, level, at));
+            let f = result.f;
+            sum = Shared(held.a + f.a0, held.b + f.a1, held.c + f.a2, held.d + f.a3);
+            held = Shared(f.a4, f.a5, f.a6, f.a7);
+            power += viscous_power(result);
+            let sound = is_sound(result);
+            if !sound || !(result.min_j > 0.0) {
+                report(chain_elements[element_entry(at)], sound);
+            }
+            low = high;
+        }
+        add_face(at, length > 0u && level <= length, sum);
+        at += FACE;
+    }
+    if length > 0u {
+        book_viscous(chain, power);
+    }
+}
+
+@compute @workgroup_size(threads)
+fn main(@builtin(local_invocation_index) lane: u32) {
+    for (var n = lane; n < arrayLength(&nodes); n += threads) {
+        enter(n);
+    }
+    for (var k = 0u; k < batch.steps; k++) {
+        if lane == 0u {
+            step = plan[k];
+        }
+        workgroupBarrier();
+        for (var round = 0u; round < rounds; round++) {
+            assemble(round * threads + lane);
+        }
+        var contact = vec4f(0.0);
+        for (var n = lane; n < arrayLength(&nodes); n += threads) {
+            contact += take_step(n);
+        }
+        sum_step(0u, lane, contact);
+        // Velocities are seen by all threads, and the step is done with.
+        storageBarrier();
+        workgroupBarrier();
+    }
+    for (var n = lane; n < arrayLength(&nodes); n += threads) {
+        leave(n);
+    }
+    if lane == 0u {
+        done[0] = step.index;
+    }
+}

@@ -1,0 +1,23 @@
+// What an element pass says of elements that fail, and what it hands from one element of a chain to the next.
+
+@group(0) @binding(19) var<storage, read_write> failure: array<atomic<u32>, 4>;
+@group(0) @binding(22) var<storage, read> chain_elements: array<u32>;
+
+// First failing step, then the smallest failing element of that step (doubled, odd: not finite).
+// Steps come in order, so whoever finds an earlier step there leaves it alone.
+fn report(element: u32, finite: bool) {
+    let before = atomicMin(&failure[0], step.index);
+    if before >= step.index {
+        atomicMin(&failure[1], 2u * element + select(1u, 0u, finite));
+    }
+}
+
+// WGSL may assume there are no NaNs, and min() may drop one: the bits decide.
+fn is_sound(result: ElementForce) -> bool {
+    let f = result.f;
+    let sum = f.a0 + f.a1 + f.a2 + f.a3 + f.a4 + f.a5 + f.a6;
+    return is_finite(dot(sum, vec3f(1.0))) && is_finite(result.min_j);
+}
+
+// Forces on the face between two elements.
+struct Shared { a: vec3f, b: vec3f, c: vec3f, d: vec3f }

@@ -1,0 +1,23 @@
+// One node, one step; its contact.
+fn take_step(n: u32) -> vec4f {
+    let node = nodes[n];
+    if is_left_out(node.role) {
+        return vec4f(0.0);
+    }
+    let f_int = moving(n, gather(n));
+    let x = load_position(n);
+    // With the work of the internal force in this window.
+    let before = velocities[n];
+    let v = before.xyz;
+    let moved = move_node(node, f_int, x, v);
+    let way = step.weight_before * v + step.weight_after * moved.v;
+    let rim = is_rim(node.role);
+    book_others(n, node, v, moved.v, way, rim);
+    store_position(n, moved, rim);
+    velocities[n] = vec4f(moved.v, before.w - dot(f_int, way));
+    if rim {
+        book_rim(node, f_int, x, v, moved, way);
+        return vec4f(0.0);
+    }
+    return book_contact(node.role, moved, way);
+}

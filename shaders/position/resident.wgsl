@@ -1,0 +1,72 @@
+// Positions and forces of all nodes in the work group's memory, three numbers a node.
+
+@group(0) @binding(10) var<storage, read_write> positions: array<vec4f>;
+@group(0) @binding(11) var<storage, read_write> velocities: array<vec4f>;
+@group(0) @binding(13) var<storage, read_write> done: array<u32>;
+
+override words: u32;
+var<workgroup> held_positions: array<f32, words>;
+var<workgroup> held_forces: array<f32, words>;
+
+// Corners of a face.
+struct Face { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
+
+fn load_position(n: u32) -> vec3f {
+    return vec3f(held_positions[3u * n], held_positions[3u * n + 1u], held_positions[3u * n + 2u]);
+}
+
+fn hold_position(n: u32, x: vec3f) {
+    held_positions[3u * n] = x.x;
+    held_positions[3u * n + 1u] = x.y;
+    held_positions[3u * n + 2u] = x.z;
+}
+
+fn store_position(n: u32, moved: Moved, rim: bool) {
+    hold_position(n, moved.x);
+}
+
+// A node comes from memory, without a force, and goes back.
+fn enter(n: u32) {
+    hold_position(n, positions[n].xyz);
+    held_forces[3u * n] = 0.0;
+    held_forces[3u * n + 1u] = 0.0;
+    held_forces[3u * n + 2u] = 0.0;
+}
+
+fn leave(n: u32) {
+    positions[n] = vec4f(load_position(n), 0.0);
+}
+
+fn add_force(n: u32, f: vec3f) {
+    held_forces[3u * n] += f.x;
+    held_forces[3u * n + 1u] += f.y;
+    held_forces[3u * n + 2u] += f.z;
+}
+
+// Internal force of a node; its sum begins anew.
+fn gather(n: u32) -> vec3f {
+    let f = vec3f(held_forces[3u * n], held_forces[3u * n + 1u], held_forces[3u * n + 2u]);
+    held_forces[3u * n] = 0.0;
+    held_forces[3u * n + 1u] = 0.0;
+    held_forces[3u * n + 2u] = 0.0;
+    return f;
+}
+
+fn load_face(at: u32) -> Face {
+    return Face(
+        load_position(chain_nodes[at]),
+        load_position(chain_nodes[at + CORNER]),
+        load_position(chain_nodes[at + 2u * CORNER]),
+        load_position(chain_nodes[at + 3u * CORNER]));
+}
+
+fn half_edges_of(low: Face, high: Face) -> Columns {
+    return half_edges(Corners(low.a, low.b, low.c, low.d, high.a, high.b, high.c, high.d));
+}
+
+// Differences to corner 0.
+fn offsets_of(low: Face, high: Face) -> Corners {
+    return Corners(
+        vec3f(0.0), low.b - low.a, low.c - low.a, low.d - low.a,
+        high.a - low.a, high.b - low.a, high.c - low.a, high.d - low.a);
+}

@@ -1,0 +1,18 @@
+// Velocities where the element pass looks for them.
+
+@group(0) @binding(11) var<storage, read> velocities_in: array<vec4f>;
+
+// Velocities of a face's corners.
+struct Rates { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
+
+fn load_rates(at: u32) -> Rates {
+    return Rates(
+        velocities_in[chain_nodes[at]].xyz,
+        velocities_in[chain_nodes[at + CORNER]].xyz,
+        velocities_in[chain_nodes[at + 2u * CORNER]].xyz,
+        velocities_in[chain_nodes[at + 3u * CORNER]].xyz);
+}
+
+fn rates_of(low: Rates, high: Rates) -> Corners {
+    return Corners(low.a, low.b, low.c, low.d, high.a, high.b, high.c, high.d);
+}

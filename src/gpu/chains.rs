@@ -1,0 +1,218 @@
+//! Elements in chains: the order in which the element pass goes through a mesh, and who gathers from where.
+
+use crate::model::Model;
+use std::collections::HashMap;
+
+/// Chains side by side in a work group.
+pub const LANES: usize = 64;
+/// Corners of a face.
+const CORNERS: usize = 4;
+/// Slots from one face of a chain to the next.
+const FACE: usize = LANES * CORNERS;
+/// Most shape classes of the table that shaders/class/shared.wgsl declares.
+pub const SHARED_CLASSES: usize = 48;
+
+/// Threads that keep a large GPU busy: where there are fewer elements than that times the length, chains are shorter.
+const BUSY: usize = 65_536;
+
+/// Elements of which a mesh may fit into one work group's memory: there a thread has a chain each.
+const RESIDENT: usize = 2048;
+
+/// Elements a chain has at most: long ones move less memory, short ones keep more threads busy. A software adapter's
+/// threads are lanes of a few processors, so there the longest are best.
+pub fn longest(software: bool, elements: usize) -> usize {
+    if software || elements <= RESIDENT { 16 } else { (elements / BUSY).clamp(1, 8) }
+}
+
+/// Work groups of 64 chains of one length. A chain's elements share faces: corners 4 to 7 of one are corners 0 to 3 of
+/// the next, so that a chain of n elements has 4 (n + 1) corner slots, not 8 n.
+#[derive(Debug, Clone)]
+pub struct Chains {
+    /// First slot, first entry of `classes` (shared classes), elements a chain, chains; shape `[group_count]`.
+    pub groups: Vec<[u32; 4]>,
+    /// Node behind every slot: 64 chains by 4 corners by faces of a group; shape `[slot_count]`.
+    pub nodes: Vec<u32>,
+    /// Whether the chains of a group have the same classes, in the same order.
+    pub shared_classes: bool,
+    /// Class of every element along a group's chains (shared), or of the element whose lower face is there.
+    pub classes: Vec<u32>,
+    /// The element whose lower face is there: 64 chains by faces of a group.
+    pub elements: Vec<u32>,
+    /// Slots of each node, ascending: `slots[start[n]..start[n + 1]]`.
+    pub start: Vec<u32>,
+    pub slots: Vec<u32>,
+}
+
+impl Chains {
+    /// Chains of at most `longest` elements.
+    pub fn new(model: &Model, longest: usize) -> Chains {
+        let chains = cut(model, longest.max(1));
+        let lanes = chains.len().div_ceil(LANES);
+        let by_class = group(&chains, |chain| chain.iter().map(|&e| model.class_of[e as usize]).collect());
+        // Groups whose chains have the same classes are worth little if most of them are nearly empty.
+        let shared_classes = model.classes.len() <= SHARED_CLASSES && by_class.len() <= 2 * lanes;
+        let groups = if shared_classes { by_class } else { group(&chains, |chain| vec![chain.len() as u32]) };
+        let mut all = Chains {
+            groups: Vec::new(),
+            nodes: Vec::new(),
+            shared_classes,
+            classes: Vec::new(),
+            elements: Vec::new(),
+            start: vec![0; model.node_count() + 1],
+            slots: Vec::new(),
+        };
+        let mut used: Vec<(u32, u32)> = Vec::new();
+        groups.iter().for_each(|g| all.push(model, g, &mut used));
+        all.gather(used);
+        all
+    }
+
+    /// Slots of all groups, those of missing chains included.
+    pub fn slot_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Appends a group of chains of one length; `used` gains (node, slot).
+    fn push(&mut self, model: &Model, chains: &[&[u32]], used: &mut Vec<(u32, u32)>) {
+        let (first, length) = (self.nodes.len(), chains[0].len());
+        let sequence = self.classes.len() as u32;
+        let class = |e: &u32| model.class_of[*e as usize];
+        if self.shared_classes {
+            self.classes.extend(chains[0].iter().map(class));
+        }
+        for level in 0..=length {
+            let mut face = [0; FACE];
+            let mut elements = [0; LANES];
+            for (lane, chain) in chains.iter().enumerate() {
+                let element = chain[level.min(length - 1)];
+                let upper = if level < length { 0 } else { CORNERS };
+                elements[lane] = element;
+                for corner in 0..CORNERS {
+                    let (node, at) =
+                        (model.mesh.hexes[element as usize][corner + upper], corner * LANES + lane);
+                    face[at] = node;
+                    used.push((node, (self.nodes.len() + at) as u32));
+                }
+            }
+            self.nodes.extend(face);
+            self.elements.extend(elements);
+            if !self.shared_classes {
+                self.classes.extend(elements.iter().map(class));
+            }
+        }
+        self.groups.push([first as u32, sequence, length as u32, chains.len() as u32]);
+    }
+
+    fn gather(&mut self, mut used: Vec<(u32, u32)>) {
+        used.sort_unstable();
+        for &(node, _) in &used {
+            self.start[node as usize + 1] += 1;
+        }
+        for n in 1..self.start.len() {
+            self.start[n] += self.start[n - 1];
+        }
+        self.slots = used.into_iter().map(|(_, slot)| slot).collect();
+    }
+}
+
+/// Chains of at most `longest` elements, by their first element.
+fn cut(model: &Model, longest: usize) -> Vec<Vec<u32>> {
+    let hexes = &model.mesh.hexes;
+    let lower: HashMap<[u32; 4], u32> =
+        hexes.iter().enumerate().map(|(e, h)| ([h[0], h[1], h[2], h[3]], e as u32)).collect();
+    let next: Vec<Option<u32>> =
+        hexes.iter().map(|h| lower.get(&[h[4], h[5], h[6], h[7]]).copied()).collect();
+    let mut is_next = vec![false; hexes.len()];
+    next.iter().flatten().for_each(|&e| is_next[e as usize] = true);
+    let mut met = vec![false; hexes.len()];
+    let mut chains = Vec::new();
+    // From every beginning; then whatever lies on closed chains.
+    let beginnings = (0..hexes.len()).filter(|&e| !is_next[e]).chain(0..hexes.len());
+    for beginning in beginnings {
+        let mut line = Vec::new();
+        let mut at = Some(beginning as u32);
+        while let Some(e) = at.filter(|&e| !met[e as usize]) {
+            met[e as usize] = true;
+            line.push(e);
+            at = next[e as usize];
+        }
+        chains.extend(line.chunks(longest).map(<[u32]>::to_vec));
+    }
+    chains.sort_unstable();
+    chains
+}
+
+/// Groups of at most 64 chains whose `kind` is the same, in the order in which kinds appear.
+fn group(chains: &[Vec<u32>], kind: impl Fn(&[u32]) -> Vec<u32>) -> Vec<Vec<&[u32]>> {
+    let mut kinds: HashMap<Vec<u32>, usize> = HashMap::new();
+    let mut members: Vec<Vec<&[u32]>> = Vec::new();
+    for chain in chains {
+        let fresh = members.len();
+        let at = *kinds.entry(kind(chain)).or_insert(fresh);
+        if at == fresh {
+            members.push(Vec::new());
+        }
+        members[at].push(chain);
+    }
+    members.iter().flat_map(|m| m.chunks(LANES).map(<[&[u32]]>::to_vec)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use std::path::Path;
+
+    fn model(elements: [usize; 3]) -> Model {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/lat100_straight.toml");
+        let scene = Scene::load(&file, &[format!("body.mesh.elements={elements:?}")]).unwrap();
+        Model::new(&scene).unwrap()
+    }
+
+    /// Every corner of every element is a slot of its node, and every element is met once, whatever the length.
+    #[test]
+    fn chains_hold_every_element_once_and_every_node_gathers_all_its_corners() {
+        let model = model([7, 5, 3]);
+        for longest in [1, 2, 3, 5, 9] {
+            let chains = Chains::new(&model, longest);
+            let mut met = vec![0; model.element_count()];
+            let mut corners: Vec<Vec<u32>> = vec![Vec::new(); model.node_count()];
+            for &[first, sequence, length, lanes] in &chains.groups {
+                for lane in 0..lanes as usize {
+                    for level in 0..length as usize {
+                        let at = first as usize + level * FACE + lane;
+                        let element = chains.elements[at / FACE * LANES + at % FACE];
+                        met[element as usize] += 1;
+                        let hex = model.mesh.hexes[element as usize];
+                        let node = |c: usize| chains.nodes[at + c / 4 * FACE + c % 4 * LANES];
+                        assert_eq!(std::array::from_fn(node), hex);
+                        let class = if chains.shared_classes {
+                            chains.classes[sequence as usize + level]
+                        } else {
+                            chains.classes[at / FACE * LANES + at % FACE]
+                        };
+                        assert_eq!(class, model.class_of[element as usize]);
+                        (0..8).for_each(|c| {
+                            corners[hex[c] as usize].push((at + c / 4 * FACE + c % 4 * LANES) as u32)
+                        });
+                    }
+                }
+            }
+            assert!(met.iter().all(|&m| m == 1));
+            for (n, slots) in corners.iter_mut().enumerate() {
+                slots.sort_unstable();
+                slots.dedup();
+                assert_eq!(slots[..], chains.slots[chains.start[n] as usize..chains.start[n + 1] as usize]);
+            }
+        }
+    }
+
+    /// 1,024 columns of four radial layers: 16 groups, and five faces for four elements.
+    #[test]
+    fn a_ring_has_full_groups_of_equal_classes() {
+        let chains = Chains::new(&model([64, 4, 16]), 4);
+        assert!(chains.shared_classes);
+        assert_eq!(chains.groups.len(), 16);
+        assert_eq!(chains.slot_count(), 5 * 4 * 1024);
+    }
+}

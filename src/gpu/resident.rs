@@ -1,0 +1,64 @@
+//! Small meshes: one work group takes many steps in one dispatch, positions and forces in its own memory.
+
+use super::Gpu;
+use super::chains::{Chains, LANES};
+use super::layout::Step;
+use std::collections::HashSet;
+
+/// Threads of the work group: enough for a chain each on small wheels, few enough that each has all the registers it
+/// can use (on NVIDIA hardware 65,536 for 256 threads: 255 each).
+const THREADS: usize = 256;
+
+/// How a mesh is laid out in a work group.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shape {
+    pub threads: usize,
+    /// Rounds of `threads` chains.
+    pub rounds: usize,
+    /// Faces of the longest chain.
+    pub faces: usize,
+    /// Numbers that positions need, and forces likewise.
+    pub words: usize,
+}
+
+impl Shape {
+    /// The layout, if the mesh fits the adapter's shared memory, and no two chains that are side by side ever meet at
+    /// a node with the same corner.
+    pub fn new(gpu: &Gpu, chains: &Chains, nodes: usize) -> Option<Shape> {
+        let limits = gpu.device.limits();
+        let threads = THREADS.min(limits.max_compute_invocations_per_workgroup as usize) / LANES * LANES;
+        let words = (3 * nodes).max(4 * threads);
+        let bytes = 2 * size_of::<f32>() * words + size_of::<Step>();
+        if threads < 2 * LANES || bytes > gpu.report.shared_memory as usize {
+            return None;
+        }
+        let groups = threads / LANES;
+        let rounds: Vec<&[[u32; 4]]> = chains.groups.chunks(groups).collect();
+        let faces = chains.groups.iter().map(|g| g[2] as usize + 1).max()?;
+        let apart = rounds.iter().all(|round| (0..faces).all(|face| is_apart(chains, round, face)));
+        apart.then_some(Shape { threads, rounds: rounds.len(), faces, words })
+    }
+
+    /// Values of the kernel's constants.
+    pub fn constants(&self) -> [(&'static str, f64); 4] {
+        let Shape { threads, rounds, faces, words } = *self;
+        [
+            ("threads", threads as f64),
+            ("rounds", rounds as f64),
+            ("faces", faces as f64),
+            ("words", words as f64),
+        ]
+    }
+}
+
+/// Whether the chains of a round have different nodes at each corner of their faces number `face`.
+fn is_apart(chains: &Chains, round: &[[u32; 4]], face: usize) -> bool {
+    (0..4).all(|corner| {
+        let mut met = HashSet::new();
+        let lanes = round.iter().filter(|g| face <= g[2] as usize).flat_map(|g| {
+            let at = g[0] as usize + (4 * face + corner) * LANES;
+            &chains.nodes[at..at + g[3] as usize]
+        });
+        lanes.into_iter().all(|node| met.insert(*node))
+    })
+}

@@ -1,0 +1,212 @@
+//! The step loop: plans, passes, submissions.
+
+use super::buffers::{STEP_STRIDE, vec4};
+use super::engine::{GROUP, GpuEngine};
+use super::layout;
+use super::readback::Readback;
+use super::stage::Bound;
+use super::verdict;
+use crate::engine::{Step, StepContact};
+use crate::error::Result;
+use crate::physics::rim::{self, Coordinates};
+use std::time::{Duration, Instant};
+
+/// Aimed length of one submission: long enough to hide its cost, far from any driver's patience.
+const SUBMIT: Duration = Duration::from_millis(50);
+
+/// One dispatch of a step.
+pub(super) struct Pass<'e> {
+    pub name: &'static str,
+    pub program: &'e Bound,
+    pub groups: [u32; 3],
+}
+
+impl Pass<'_> {
+    /// Records it for the step whose plan entry is `slot`.
+    pub fn dispatch(&self, pass: &mut wgpu::ComputePass, slot: usize) {
+        self.program.dispatch(pass, self.groups, (slot * STEP_STRIDE) as u32);
+    }
+}
+
+/// Contact over the body in one step from its sums by work groups, as shaders/contact/book.wgsl packs them.
+fn step_contact(step: &Step, sums: &[[f32; 4]]) -> StepContact {
+    let mut all = StepContact { dtm: step.dtm(), ..StepContact::default() };
+    for sum in sums {
+        all.force.iter_mut().zip(sum).for_each(|(f, s)| *f += f64::from(*s));
+        let counts = sum[3] as u32;
+        all.touching += counts % 4096;
+        all.changes += counts / 4096;
+    }
+    all
+}
+
+impl GpuEngine {
+    /// A step as the shaders read it. `weights`: of the velocities before and after in works; of the viscous power.
+    pub(super) fn plan_entry(
+        &self,
+        (index, slot): (u64, usize),
+        step: &Step,
+        before: &Coordinates,
+        weights: [f64; 3],
+    ) -> layout::Step {
+        let free = self.has_free_rim();
+        let local = |q: &Coordinates| vec4(std::array::from_fn(|d| q[d] - self.frame[d]));
+        let (now, then) = (rim::rotation(before), rim::rotation(&step.rim));
+        let columns = |m: glam::DMat3| m.to_cols_array_2d().map(vec4);
+        let rotation = columns(if free { rim::frame(&step.rim) } else { then });
+        let rate = columns((then - now) * (1.0 / step.dt));
+        let speed = vec4(std::array::from_fn(|d| (step.rim[d] - before[d]) / step.dt));
+        let moves = vec4(std::array::from_fn(|d| step.rim[d] - self.rim.q[d]));
+        layout::Step {
+            dt: step.dt as f32,
+            dtm: step.dtm() as f32,
+            weight_before: weights[0] as f32,
+            weight_after: weights[1] as f32,
+            index: index as u32,
+            viscous_weight: weights[2] as f32,
+            spin: (step.rim[rim::SPIN] - self.rim.q[rim::SPIN]) as f32,
+            pad: 0,
+            axle: if free { moves } else { local(&step.rim) },
+            axle_velocity: speed,
+            axle_before: local(before),
+            rotation0: rotation[0],
+            rotation1: rotation[1],
+            rotation2: rotation[2],
+            rate0: rate[0],
+            rate1: rate[1],
+            rate2: rate[2],
+            load: [step.load[0], step.load[1], step.load[2], step.load[rim::SPIN]].map(|l| l as f32),
+            slot: slot as u32,
+            pad1: 0,
+            pad2: 0,
+            pad3: 0,
+        }
+    }
+
+    pub(super) fn write_plan(&self, entries: &[layout::Step]) {
+        let mut bytes = vec![0u8; entries.len() * STEP_STRIDE];
+        for (slot, entry) in bytes.chunks_exact_mut(STEP_STRIDE).zip(entries) {
+            slot[..size_of::<layout::Step>()].copy_from_slice(bytemuck::bytes_of(entry));
+        }
+        self.gpu.queue.write_buffer(self.buffers.get("step"), 0, &bytes);
+    }
+
+    /// Rounds of passes that a submission of `steps` needs: a resident kernel takes all steps in one.
+    pub(super) fn rounds(&self, steps: usize) -> usize {
+        if self.is_resident() { 1 } else { steps }
+    }
+
+    /// The passes of one step, in order.
+    pub(super) fn passes(&self) -> Vec<Pass<'_>> {
+        let stage = self.stage.as_ref().expect("a stage is composed before its passes are asked for");
+        if let Some(program) = &stage.resident {
+            return vec![Pass { name: "resident", program, groups: [1, 1, 1] }];
+        }
+        let mut passes =
+            vec![Pass { name: "element_force", program: &self.force, groups: self.element_groups() }];
+        passes.extend(stage.rim.as_ref().map(|program| Pass { name: "rim", program, groups: [1, 1, 1] }));
+        passes.push(Pass {
+            name: "node",
+            program: &stage.node,
+            groups: self.counts.groups(self.counts.nodes),
+        });
+        let groups = self.counts.groups(self.counts.surface + self.counts.rim);
+        passes.extend(stage.boundary.as_ref().map(|program| Pass { name: "boundary", program, groups }));
+        passes
+    }
+
+    /// Writes the plan of the steps of one submission.
+    pub(super) fn write_steps(&self, steps: &[Step], starts: &[Coordinates]) {
+        let entry = |(n, (step, before)): (usize, (&Step, &Coordinates))| {
+            let w = 0.5 * step.dtm();
+            self.plan_entry((self.steps + n as u64, n), step, before, [w, w, step.dtm()])
+        };
+        let entries: Vec<layout::Step> = steps.iter().zip(starts).enumerate().map(entry).collect();
+        if self.is_resident() {
+            let batch = layout::Batch { steps: entries.len() as u32, pad0: 0, pad1: 0, pad2: 0 };
+            self.gpu.queue.write_buffer(self.buffers.get("plan"), 0, bytemuck::cast_slice(&entries));
+            self.gpu.queue.write_buffer(self.buffers.get("batch"), 0, bytemuck::bytes_of(&batch));
+        } else {
+            self.write_plan(&entries);
+        }
+    }
+
+    /// Submits `steps` in one go and waits.
+    pub(super) fn submit(&mut self, steps: &[Step], starts: &[Coordinates]) -> Result<()> {
+        self.ready()?;
+        self.write_steps(steps, starts);
+        let passes = self.passes();
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            for slot in 0..self.rounds(steps.len()) {
+                passes.iter().for_each(|p| p.dispatch(&mut pass, slot));
+            }
+        }
+        let begun = Instant::now();
+        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.wait()?;
+        let each = begun.elapsed().as_secs_f64() / steps.len() as f64;
+        if !self.fixed_submits {
+            self.steps_per_submit =
+                ((SUBMIT.as_secs_f64() / each) as usize).clamp(1, self.counts.contact_slots());
+        }
+        self.took(steps)
+    }
+
+    /// Books steps that the device has taken, and reads what it says of each.
+    pub(super) fn took(&mut self, steps: &[Step]) -> Result<()> {
+        self.steps += steps.len() as u64;
+        self.window_steps += steps.len() as u64;
+        if self.counts.surface == 0 {
+            return Ok(());
+        }
+        let mut read = Readback::default();
+        let part = read.add(self.buffers.get("contact_steps"));
+        let data = read.run(&self.gpu, |_| {})?;
+        let partials: &[[f32; 4]] = bytemuck::cast_slice(data.part(part));
+        let groups = if self.is_resident() { 1 } else { self.counts.surface.div_ceil(GROUP) };
+        let each = partials.chunks_exact(groups);
+        self.step_contact.extend(steps.iter().zip(each).map(|(step, sums)| step_contact(step, sums)));
+        Ok(())
+    }
+
+    /// Takes the steps by submissions, each made by `submit`.
+    pub(super) fn in_submissions(
+        &mut self,
+        steps: &[Step],
+        mut submit: impl FnMut(&mut Self, &[Step], &[Coordinates]) -> Result<()>,
+    ) -> Result<()> {
+        if steps.is_empty() {
+            return Ok(());
+        }
+        self.restore()?;
+        self.ready()?;
+        let first = self.steps;
+        let starts: Vec<Coordinates> =
+            std::iter::once(self.rim.q).chain(steps.iter().map(|s| s.rim)).take(steps.len()).collect();
+        let mut at = 0;
+        while at < steps.len() {
+            let end = (at + self.steps_per_submit).min(steps.len());
+            submit(self, &steps[at..end], &starts[at..end])?;
+            at = end;
+        }
+        if let (false, Some(last), Some(before)) = (self.has_free_rim(), steps.last(), starts.last()) {
+            self.rim.rate = std::array::from_fn(|c| (last.rim[c] - before[c]) / last.dt);
+            self.rim.q = last.rim;
+        }
+        self.check_steps(steps, first)
+    }
+
+    /// Turns what the device reported into an error, and checks that the last pass ran.
+    fn check_steps(&mut self, steps: &[Step], first: u64) -> Result<()> {
+        let mut read = Readback::default();
+        let failure = read.add(self.buffers.get("failure"));
+        let done = read.add(self.buffers.get("done"));
+        let data = read.run(&self.gpu, |_| {})?;
+        let flag = |part| -> &[u32] { bytemuck::cast_slice(data.part(part)) };
+        let (failure, done) = (flag(failure), flag(done)[0]);
+        verdict::failure([failure[0], failure[1]], steps, first)?;
+        verdict::sentinel(done, self.steps).map_err(|detail| self.gpu.error(detail))
+    }
+}
