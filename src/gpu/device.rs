@@ -15,7 +15,7 @@ pub struct AdapterReport {
     /// Largest storage binding and buffer [bytes].
     pub storage_binding: u64,
     pub buffer: u64,
-    /// Storage buffers a compute stage may bind (this program binds up to 18).
+    /// Storage buffers a compute stage may bind (passes bind up to 18, the kernel of small meshes 21).
     pub storage_buffers: u32,
     /// Work groups a dispatch may have in one dimension.
     pub workgroups: u32,
@@ -27,7 +27,7 @@ pub struct AdapterReport {
     pub unusable: Option<String>,
 }
 
-/// Storage buffers bound by the largest kernel.
+/// Storage buffers bound by the largest kernel of the passes.
 pub const STORAGE_BUFFERS: u32 = 18;
 
 fn instance() -> wgpu::Instance {

@@ -22,4 +22,5 @@ mod verdict;
 
 pub use device::{AdapterReport, Gpu, STORAGE_BUFFERS, adapters};
 pub use engine::{Counts, GpuEngine};
+pub use resident::RESIDENT_STORAGE_BUFFERS;
 pub use timing::{PassTime, PassTimes};

@@ -9,6 +9,9 @@ use std::collections::HashSet;
 /// can use (on NVIDIA hardware 65,536 for 256 threads: 255 each).
 const THREADS: usize = 256;
 
+/// Storage buffers that its kernel binds; on adapters with fewer the passes take all meshes.
+pub const RESIDENT_STORAGE_BUFFERS: u32 = 21;
+
 /// How a mesh is laid out in a work group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shape {
@@ -29,6 +32,9 @@ impl Shape {
         let threads = THREADS.min(limits.max_compute_invocations_per_workgroup as usize) / LANES * LANES;
         let words = (3 * nodes).max(4 * threads);
         let bytes = 2 * size_of::<f32>() * words + size_of::<Step>();
+        if limits.max_storage_buffers_per_shader_stage < RESIDENT_STORAGE_BUFFERS {
+            return None;
+        }
         if threads < 2 * LANES || bytes > gpu.report.shared_memory as usize {
             return None;
         }

@@ -28,7 +28,6 @@ pub fn agrees(gpu: &Gpu) {
             assert_eq!(engine.is_resident(), allowed, "{stem}");
             drive(&mut engine, &plan).unwrap()
         });
-        assert!(resident.state != passes.state, "{stem}: both went the same way");
         // A coordinate's rounding, 4e-9 m, beside the 2e-5 m of a step's way; contact may come a step sooner or later.
         let bounds = [
             ("contact steps", 2e-2),
