@@ -67,6 +67,7 @@ fn choices() -> Vec<Choice> {
                             plus,
                             // Both, each with everything else.
                             shared_classes: gravity,
+                            lattice: damping,
                         };
                         all.push(choice);
                     }
@@ -201,7 +202,7 @@ fn names(module: &Module) -> BTreeSet<String> {
 
 /// What a kernel may bring without using it: files that hold the few functions of one subject, of which a kernel
 /// calls some. Everything else that is composed must be reached.
-const SHARED: [(&str, &[&str]); 15] = [
+const SHARED: [(&str, &[&str]); 17] = [
     // Element passes: the force pass needs the stress and not the energy, the energy pass the other way round;
     // elements with points need the Gauss lines, the uniform-gradient one does not.
     ("lib/hex8", &["interpolate", "gradients", "half_edges", "scatter", "cofactor"]),
@@ -220,6 +221,8 @@ const SHARED: [(&str, &[&str]); 15] = [
     ("position/f32_plus", &["half_edges_of", "offsets_of", "sum_pair"]),
     // Elements are named where one may fail, or have classes of their own.
     ("lib/chains", &["element_entry"]),
+    ("chain/table", &["element_at", "chain_elements"]),
+    ("chain/lattice", &["element_at"]),
     // Every kernel but the resident one folds its index, the force pass alone looks for NaN.
     ("lib/index", &["is_finite", "thread_index"]),
 ];

@@ -15,10 +15,13 @@ fn main(
     let chains = chain_groups[thread / 64u];
     var sum = vec4f(0.0, 0.0, 0.0, 3.0e38);
     if lane < chains.w {
-        var at = chains.x + lane;
-        var low = load_face(at);
+        let chain = Chain(thread / 64u, lane, chains.x + lane);
+        var at = chain.at;
+        var nodes = first_face(chain);
+        var low = load_face(nodes);
         for (var level = 0u; level < chains.z; level++) {
-            let high = load_face(at + FACE);
+            nodes = next_face(at + FACE, nodes);
+            let high = load_face(nodes);
             let e = element_energy(low, high, class_at(chains, level, at));
             sum = vec4f(sum.xy + e.xy, 0.0, min(sum.w, e.z));
             low = high;

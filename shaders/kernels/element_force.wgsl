@@ -26,14 +26,17 @@ fn main(
     if lane >= chains.w {
         return;
     }
-    var at = chains.x + lane;
-    var low = load_end(at);
+    let chain = Chain(thread / 64u, lane, chains.x + lane);
+    var at = chain.at;
+    var nodes = first_face(chain);
+    var low = load_end(nodes);
     var held = Shared();
     var power = 0.0;
     var failed = NONE;
     var finite = true;
     for (var level = 0u; level < chains.z; level++) {
-        let high = load_end(at + FACE);
+        nodes = next_face(at + FACE, nodes);
+        let high = load_end(nodes);
         let result = element_force(low, high, class_at(chains, level, at));
         let f = result.f;
         store(at, Shared(held.a + f.a0, held.b + f.a1, held.c + f.a2, held.d + f.a3));
@@ -41,7 +44,7 @@ fn main(
         power += viscous_power(result);
         let sound = is_sound(result);
         if failed == NONE && (!sound || !(result.min_j > 0.0)) {
-            failed = at;
+            failed = level;
             finite = sound;
         }
         low = high;
@@ -50,6 +53,6 @@ fn main(
     store(at, held);
     book_viscous(thread, power);
     if failed != NONE {
-        report(chain_elements[element_entry(failed)], finite);
+        report(element_at(chain, failed), finite);
     }
 }

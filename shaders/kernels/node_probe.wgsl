@@ -10,10 +10,11 @@
 struct Probed { energies: vec4f, works: vec4f, contact: vec4f, window: vec4f }
 
 fn probe(n: u32) -> Probed {
-    let node = nodes[n];
+    let here = load_node(n);
+    let node = node_of(n, here.w);
     let whole = gather(n);
     let f_int = moving(n, whole);
-    let x = load_position(n);
+    let x = here.xyz;
     let before = velocities[n];
     let v = before.xyz;
     velocities[n] = vec4f(v, 0.0);
@@ -40,7 +41,7 @@ fn main(
 ) {
     let thread = thread_index(group, groups, lane);
     var probed = Probed();
-    if thread < arrayLength(&nodes) {
+    if thread < arrayLength(&roles) {
         probed = probe(thread);
     }
     let energies = group_sum(lane, probed.energies);
@@ -48,7 +49,7 @@ fn main(
     let contact = group_sum(lane, probed.contact);
     let window = group_sum(lane, probed.window);
     let first = 4u * (thread / 64u);
-    if lane == 0u && thread < arrayLength(&nodes) {
+    if lane == 0u && thread < arrayLength(&roles) {
         probes[first] = energies;
         probes[first + 1u] = works;
         probes[first + 2u] = contact;

@@ -16,6 +16,6 @@ fn main(
     }
     let moved = two_sum(positions[n].xyz, -shift.by.xyz, bitcast<u32>(shift.by.w));
     let sum = two_sum(moved.hi, moved.lo + positions_lo[n].xyz, bitcast<u32>(shift.by.w));
-    positions[n] = vec4f(sum.hi, 0.0);
+    positions[n] = vec4f(sum.hi, positions[n].w);
     positions_lo[n] = vec4f(sum.lo, 0.0);
 }

@@ -13,44 +13,49 @@ var<workgroup> step: Step;
 
 // Adds the forces on one face of each chain to the nodes, corner by corner: chains side by side share no corner of the
 // same number, so no two threads meet, and the order is always the same.
-fn add_face(at: u32, there: bool, f: Shared) {
+fn add_face(nodes: vec4u, there: bool, f: Shared) {
     if there {
-        add_force(chain_nodes[at], f.a);
+        add_force(nodes.x, f.a);
     }
     workgroupBarrier();
     if there {
-        add_force(chain_nodes[at + CORNER], f.b);
+        add_force(nodes.y, f.b);
     }
     workgroupBarrier();
     if there {
-        add_force(chain_nodes[at + 2u * CORNER], f.c);
+        add_force(nodes.z, f.c);
     }
     workgroupBarrier();
     if there {
-        add_force(chain_nodes[at + 3u * CORNER], f.d);
+        add_force(nodes.w, f.d);
     }
     workgroupBarrier();
 }
 
 // Forces of one chain a thread.
-fn assemble(chain: u32) {
+fn assemble(number: u32) {
     var length = 0u;
     var chains = vec4u(0u);
-    if chain / 64u < arrayLength(&chain_groups) {
-        chains = chain_groups[chain / 64u];
-        length = select(0u, chains.z, chain % 64u < chains.w);
+    if number / 64u < arrayLength(&chain_groups) {
+        chains = chain_groups[number / 64u];
+        length = select(0u, chains.z, number % 64u < chains.w);
     }
-    var at = chains.x + chain % 64u;
+    let chain = Chain(number / 64u, number % 64u, chains.x + number % 64u);
+    var at = chain.at;
+    var nodes = vec4u(0u);
     var low = End();
     if length > 0u {
-        low = load_end(at);
+        nodes = first_face(chain);
+        low = load_end(nodes);
     }
     var held = Shared();
     var power = 0.0;
     for (var level = 0u; level < faces; level++) {
         var sum = held;
+        let face = nodes;
         if level < length {
-            let high = load_end(at + FACE);
+            nodes = next_face(at + FACE, nodes);
+            let high = load_end(nodes);
             let result = element_force(low, high, class_at(chains, level, at));
             let f = result.f;
             sum = Shared(held.a + f.a0, held.b + f.a1, held.c + f.a2, held.d + f.a3);
@@ -58,21 +63,21 @@ fn assemble(chain: u32) {
             power += viscous_power(result);
             let sound = is_sound(result);
             if !sound || !(result.min_j > 0.0) {
-                report(chain_elements[element_entry(at)], sound);
+                report(element_at(chain, level), sound);
             }
             low = high;
         }
-        add_face(at, length > 0u && level <= length, sum);
+        add_face(face, length > 0u && level <= length, sum);
         at += FACE;
     }
     if length > 0u {
-        book_viscous(chain, power);
+        book_viscous(number, power);
     }
 }
 
 @compute @workgroup_size(threads)
 fn main(@builtin(local_invocation_index) lane: u32) {
-    for (var n = lane; n < arrayLength(&nodes); n += threads) {
+    for (var n = lane; n < arrayLength(&roles); n += threads) {
         enter(n);
     }
     for (var k = 0u; k < batch.steps; k++) {
@@ -84,7 +89,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
             assemble(round * threads + lane);
         }
         var contact = vec4f(0.0);
-        for (var n = lane; n < arrayLength(&nodes); n += threads) {
+        for (var n = lane; n < arrayLength(&roles); n += threads) {
             contact += take_step(n);
         }
         sum_step(0u, lane, contact);
@@ -92,7 +97,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
         storageBarrier();
         workgroupBarrier();
     }
-    for (var n = lane; n < arrayLength(&nodes); n += threads) {
+    for (var n = lane; n < arrayLength(&roles); n += threads) {
         leave(n);
     }
     if lane == 0u {

@@ -84,9 +84,10 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     var moment = vec3f(0.0);
     for (var k = lane; k < arrayLength(&rim_nodes); k += 64u) {
         let n = rim_nodes[k];
-        let f = nodes[n].mass * gravity() - gather(n);
+        let here = load_node(n);
+        let f = abs(here.w) * gravity() - gather(n);
         force += f;
-        moment += cross(load_position(n) - rim_state.axle.xyz, f);
+        moment += cross(here.xyz - rim_state.axle.xyz, f);
     }
     forces[lane] = force;
     moments[lane] = moment;

@@ -14,6 +14,6 @@ fn main(
     if k >= arrayLength(&surface_nodes) {
         return;
     }
-    surface_states[2u * k] = vec4f(load_position(surface_nodes[k]), 0.0);
+    surface_states[2u * k] = load_node(surface_nodes[k]);
     surface_states[2u * k + 1u] = velocities_now[surface_nodes[k]];
 }

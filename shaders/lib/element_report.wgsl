@@ -1,7 +1,6 @@
 // What an element pass says of elements that fail, and what it hands from one element of a chain to the next.
 
 @group(0) @binding(19) var<storage, read_write> failure: array<atomic<u32>, 4>;
-@group(0) @binding(22) var<storage, read> chain_elements: array<u32>;
 
 // First failing step, then the smallest failing element of that step (doubled, odd: not finite).
 // Steps come in order, so whoever finds an earlier step there leaves it alone.

@@ -1,17 +1,23 @@
-// Sum over a work group, by halves, so always in the same order. All of its threads call it.
+// Sum over a work group, for its thread 0, always in the same order. All of its threads call it.
 
 var<workgroup> shared_sums: array<vec4f, 64>;
 
 fn group_sum(lane: u32, value: vec4f) -> vec4f {
+    // The sum before this one has been read.
+    workgroupBarrier();
     shared_sums[lane] = value;
     workgroupBarrier();
-    for (var half = 32u; half > 0u; half /= 2u) {
-        if lane < half {
-            shared_sums[lane] += shared_sums[lane + half];
+    if lane < 8u {
+        for (var k = lane + 8u; k < 64u; k += 8u) {
+            shared_sums[lane] += shared_sums[k];
         }
-        workgroupBarrier();
     }
-    let sum = shared_sums[0];
     workgroupBarrier();
+    var sum = vec4f(0.0);
+    if lane == 0u {
+        for (var k = 0u; k < 8u; k++) {
+            sum += shared_sums[k];
+        }
+    }
     return sum;
 }

@@ -5,8 +5,8 @@ struct ElementForce { f: Corners, min_j: f32 }
 // What a thread carries from one element of a chain to the next.
 struct End { x: Face }
 
-fn load_end(at: u32) -> End {
-    return End(load_face(at));
+fn load_end(nodes: vec4u) -> End {
+    return End(load_face(nodes));
 }
 
 fn element_force(low: End, high: End, shape: u32) -> ElementForce {

@@ -1,6 +1,6 @@
-// What a node is.
+// What a node is. Its mass stands beside its position, negative if the node can touch the road or belongs to the rim.
 
 const INTERIOR: u32 = 0xffffffffu;
 const RIM: u32 = 0x80000000u;
 
-@group(0) @binding(3) var<storage, read> nodes: array<Node>;
+struct Node { mass: f32, role: u32 }

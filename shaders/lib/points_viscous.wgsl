@@ -28,8 +28,8 @@ fn sum_four(a: Four, b: Four) -> Four {
 // What a thread carries from one element of a chain to the next.
 struct End { x: Face, v: Rates }
 
-fn load_end(at: u32) -> End {
-    return End(load_face(at), load_rates(at));
+fn load_end(nodes: vec4u) -> End {
+    return End(load_face(nodes), load_rates(nodes));
 }
 
 fn element_force(low: End, high: End, shape: u32) -> ElementForce {

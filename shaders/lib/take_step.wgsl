@@ -1,11 +1,12 @@
 // One node, one step; its contact.
 fn take_step(n: u32) -> vec4f {
-    let node = nodes[n];
-    if is_left_out(node.role) {
+    let here = load_node(n);
+    if is_left_out(here.w) {
         return vec4f(0.0);
     }
+    let node = node_of(n, here.w);
     let f_int = moving(n, gather(n));
-    let x = load_position(n);
+    let x = here.xyz;
     // With the work of the internal force in this window.
     let before = velocities[n];
     let v = before.xyz;
@@ -13,7 +14,7 @@ fn take_step(n: u32) -> vec4f {
     let way = step.weight_before * v + step.weight_after * moved.v;
     let rim = is_rim(node.role);
     book_others(n, node, v, moved.v, way, rim);
-    store_position(n, moved, rim);
+    store_position(n, moved, rim, here.w);
     velocities[n] = vec4f(moved.v, before.w - dot(f_int, way));
     if rim {
         book_rim(node, f_int, x, v, moved, way);

@@ -1,5 +1,5 @@
 // Every node, by one thread after the other.
 
-fn is_left_out(role: u32) -> bool {
+fn is_left_out(mass: f32) -> bool {
     return false;
 }

@@ -1,13 +1,17 @@
 // Every node that can neither touch the road nor belongs to the rim.
 
 fn node_threads() -> u32 {
-    return arrayLength(&nodes);
+    return arrayLength(&positions);
 }
 
 fn node_at(thread: u32) -> u32 {
     return thread;
 }
 
-fn is_left_out(role: u32) -> bool {
-    return role != INTERIOR;
+fn is_left_out(mass: f32) -> bool {
+    return mass < 0.0;
+}
+
+fn node_of(n: u32, mass: f32) -> Node {
+    return Node(mass, INTERIOR);
 }

@@ -5,12 +5,9 @@
 // Corners of a face.
 struct Face { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
 
-fn load_face(at: u32) -> Face {
+fn load_face(nodes: vec4u) -> Face {
     return Face(
-        positions_in[chain_nodes[at]].xyz,
-        positions_in[chain_nodes[at + CORNER]].xyz,
-        positions_in[chain_nodes[at + 2u * CORNER]].xyz,
-        positions_in[chain_nodes[at + 3u * CORNER]].xyz);
+        positions_in[nodes.x].xyz, positions_in[nodes.y].xyz, positions_in[nodes.z].xyz, positions_in[nodes.w].xyz);
 }
 
 fn half_edges_of(low: Face, high: Face) -> Columns {

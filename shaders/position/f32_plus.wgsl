@@ -8,11 +8,11 @@ struct Part { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
 
 struct Face { hi: Part, lo: Part }
 
-fn load_face(at: u32) -> Face {
-    let a = chain_nodes[at];
-    let b = chain_nodes[at + CORNER];
-    let c = chain_nodes[at + 2u * CORNER];
-    let d = chain_nodes[at + 3u * CORNER];
+fn load_face(nodes: vec4u) -> Face {
+    let a = nodes.x;
+    let b = nodes.y;
+    let c = nodes.z;
+    let d = nodes.w;
     return Face(
         Part(positions_in[a].xyz, positions_in[b].xyz, positions_in[c].xyz, positions_in[d].xyz),
         Part(positions_lo_in[a].xyz, positions_lo_in[b].xyz, positions_lo_in[c].xyz, positions_lo_in[d].xyz));

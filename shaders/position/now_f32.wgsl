@@ -1,5 +1,6 @@
 @group(0) @binding(10) var<storage, read> positions: array<vec4f>;
 
-fn load_position(n: u32) -> vec3f {
-    return positions[n].xyz;
+// Position, and what stands beside it.
+fn load_node(n: u32) -> vec4f {
+    return positions[n];
 }

@@ -11,7 +11,7 @@ var<workgroup> held_forces: array<f32, words>;
 // Corners of a face.
 struct Face { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
 
-fn load_position(n: u32) -> vec3f {
+fn held_position(n: u32) -> vec3f {
     return vec3f(held_positions[3u * n], held_positions[3u * n + 1u], held_positions[3u * n + 2u]);
 }
 
@@ -21,7 +21,12 @@ fn hold_position(n: u32, x: vec3f) {
     held_positions[3u * n + 2u] = x.z;
 }
 
-fn store_position(n: u32, moved: Moved, rim: bool) {
+// Position, and mass from memory.
+fn load_node(n: u32) -> vec4f {
+    return vec4f(held_position(n), positions[n].w);
+}
+
+fn store_position(n: u32, moved: Moved, rim: bool, mass: f32) {
     hold_position(n, moved.x);
 }
 
@@ -34,7 +39,7 @@ fn enter(n: u32) {
 }
 
 fn leave(n: u32) {
-    positions[n] = vec4f(load_position(n), 0.0);
+    positions[n] = load_node(n);
 }
 
 fn add_force(n: u32, f: vec3f) {
@@ -52,12 +57,8 @@ fn gather(n: u32) -> vec3f {
     return f;
 }
 
-fn load_face(at: u32) -> Face {
-    return Face(
-        load_position(chain_nodes[at]),
-        load_position(chain_nodes[at + CORNER]),
-        load_position(chain_nodes[at + 2u * CORNER]),
-        load_position(chain_nodes[at + 3u * CORNER]));
+fn load_face(nodes: vec4u) -> Face {
+    return Face(held_position(nodes.x), held_position(nodes.y), held_position(nodes.z), held_position(nodes.w));
 }
 
 fn half_edges_of(low: Face, high: Face) -> Columns {

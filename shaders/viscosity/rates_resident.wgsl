@@ -3,12 +3,8 @@
 // Velocities of a face's corners.
 struct Rates { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
 
-fn load_rates(at: u32) -> Rates {
-    return Rates(
-        velocities[chain_nodes[at]].xyz,
-        velocities[chain_nodes[at + CORNER]].xyz,
-        velocities[chain_nodes[at + 2u * CORNER]].xyz,
-        velocities[chain_nodes[at + 3u * CORNER]].xyz);
+fn load_rates(nodes: vec4u) -> Rates {
+    return Rates(velocities[nodes.x].xyz, velocities[nodes.y].xyz, velocities[nodes.z].xyz, velocities[nodes.w].xyz);
 }
 
 fn rates_of(low: Rates, high: Rates) -> Corners {

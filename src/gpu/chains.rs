@@ -1,5 +1,6 @@
 //! Elements in chains: the order in which the element pass goes through a mesh, and who gathers from where.
 
+use super::lattice::Lattice;
 use crate::model::Model;
 use std::collections::HashMap;
 
@@ -38,7 +39,11 @@ pub struct Chains {
     pub classes: Vec<u32>,
     /// The element whose lower face is there: 64 chains by faces of a group.
     pub elements: Vec<u32>,
-    /// Slots of each node, ascending: `slots[start[n]..start[n + 1]]`.
+    /// The numbering, where it is a generator's: then `nodes` and `elements` follow from it, slots of nodes too.
+    pub lattice: Option<Lattice>,
+    /// Elements of a chain, at most, as asked for.
+    pub longest: usize,
+    /// Slots of each node, ascending: `slots[start[n]..start[n + 1]]`; empty where there is a lattice.
     pub start: Vec<u32>,
     pub slots: Vec<u32>,
 }
@@ -46,25 +51,57 @@ pub struct Chains {
 impl Chains {
     /// Chains of at most `longest` elements.
     pub fn new(model: &Model, longest: usize) -> Chains {
-        let chains = cut(model, longest.max(1));
+        let longest = longest.max(1);
+        match Lattice::of(&model.mesh) {
+            Some(lattice) => Chains::of_lattice(model, longest, lattice),
+            None => Chains::of_any(model, longest),
+        }
+    }
+
+    /// By tables, whatever the numbering.
+    fn of_any(model: &Model, longest: usize) -> Chains {
+        let chains = cut(model, longest);
         let lanes = chains.len().div_ceil(LANES);
-        let by_class = group(&chains, |chain| chain.iter().map(|&e| model.class_of[e as usize]).collect());
+        let by_class = group(&chains, |chain| classes(model, chain));
         // Groups whose chains have the same classes are worth little if most of them are nearly empty.
         let shared_classes = model.classes.len() <= SHARED_CLASSES && by_class.len() <= 2 * lanes;
         let groups = if shared_classes { by_class } else { group(&chains, |chain| vec![chain.len() as u32]) };
-        let mut all = Chains {
+        let mut all = Chains::empty(longest, None, shared_classes);
+        all.start = vec![0; model.node_count() + 1];
+        let mut used: Vec<(u32, u32)> = Vec::new();
+        groups.iter().for_each(|g| all.push(model, g, &mut used));
+        all.gather(used);
+        all
+    }
+
+    /// In the order that shaders/chain/lattice.wgsl and shaders/gather/lattice.wgsl compute.
+    fn of_lattice(model: &Model, longest: usize, lattice: Lattice) -> Chains {
+        let layers = lattice.chains(longest);
+        let groups: Vec<Vec<&[u32]>> = (layers.iter())
+            .flat_map(|layer| layer.chunks(LANES).map(|group| group.iter().map(Vec::as_slice).collect()))
+            .collect();
+        let equal = |group: &Vec<&[u32]>| {
+            let first = classes(model, group[0]);
+            group.iter().all(|chain| classes(model, chain) == first)
+        };
+        let shared_classes = model.classes.len() <= SHARED_CLASSES && groups.iter().all(equal);
+        let mut all = Chains::empty(longest, Some(lattice), shared_classes);
+        groups.iter().for_each(|g| all.push(model, g, &mut Vec::new()));
+        all
+    }
+
+    fn empty(longest: usize, lattice: Option<Lattice>, shared_classes: bool) -> Chains {
+        Chains {
             groups: Vec::new(),
             nodes: Vec::new(),
             shared_classes,
             classes: Vec::new(),
             elements: Vec::new(),
-            start: vec![0; model.node_count() + 1],
+            lattice,
+            longest,
+            start: Vec::new(),
             slots: Vec::new(),
-        };
-        let mut used: Vec<(u32, u32)> = Vec::new();
-        groups.iter().for_each(|g| all.push(model, g, &mut used));
-        all.gather(used);
-        all
+        }
     }
 
     /// Slots of all groups, those of missing chains included.
@@ -115,6 +152,10 @@ impl Chains {
     }
 }
 
+fn classes(model: &Model, chain: &[u32]) -> Vec<u32> {
+    chain.iter().map(|&e| model.class_of[e as usize]).collect()
+}
+
 /// Chains of at most `longest` elements, by their first element.
 fn cut(model: &Model, longest: usize) -> Vec<Vec<u32>> {
     let hexes = &model.mesh.hexes;
@@ -136,7 +177,9 @@ fn cut(model: &Model, longest: usize) -> Vec<Vec<u32>> {
             line.push(e);
             at = next[e as usize];
         }
-        chains.extend(line.chunks(longest).map(<[u32]>::to_vec));
+        // Pieces of about one length.
+        let length = line.len().div_ceil(line.len().div_ceil(longest).max(1)).max(1);
+        chains.extend(line.chunks(length).map(<[u32]>::to_vec));
     }
     chains.sort_unstable();
     chains
@@ -173,8 +216,9 @@ mod tests {
     #[test]
     fn chains_hold_every_element_once_and_every_node_gathers_all_its_corners() {
         let model = model([7, 5, 3]);
-        for longest in [1, 2, 3, 5, 9] {
-            let chains = Chains::new(&model, longest);
+        let lattice = Lattice::of(&model.mesh).unwrap();
+        let both = |longest| [Chains::of_any(&model, longest), Chains::of_lattice(&model, longest, lattice)];
+        for chains in [1, 2, 3, 5, 9].into_iter().flat_map(both) {
             let mut met = vec![0; model.element_count()];
             let mut corners: Vec<Vec<u32>> = vec![Vec::new(); model.node_count()];
             for &[first, sequence, length, lanes] in &chains.groups {
@@ -199,6 +243,9 @@ mod tests {
                 }
             }
             assert!(met.iter().all(|&m| m == 1));
+            if chains.lattice.is_some() {
+                continue;
+            }
             for (n, slots) in corners.iter_mut().enumerate() {
                 slots.sort_unstable();
                 slots.dedup();

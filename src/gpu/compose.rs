@@ -15,6 +15,8 @@ macro_rules! shaders {
     };
 }
 shaders!(
+    "chain/lattice",
+    "chain/table",
     "class/own",
     "class/shared",
     "contact/areas",
@@ -44,6 +46,8 @@ shaders!(
     "friction/pressure_velocity",
     "friction/stribeck",
     "friction/viscous",
+    "gather/lattice",
+    "gather/table",
     "hold/components",
     "hold/none",
     "kernels/check_sums",
@@ -59,13 +63,14 @@ shaders!(
     "kernels/rim",
     "kernels/surface_state",
     "lib/chains",
-    "lib/gather",
     "lib/gravity",
     "lib/gravity_none",
     "lib/element_report",
     "lib/group_sum",
     "lib/hex8",
     "lib/index",
+    "lib/lattice",
+    "lib/roles",
     "lib/invariants_i1",
     "lib/invariants_i2",
     "lib/mean_elastic",
@@ -154,6 +159,8 @@ pub struct Choice {
     pub plus: bool,
     /// Few shape classes, the same along all chains of a work group.
     pub shared_classes: bool,
+    /// Nodes and slots follow from numbers: a generator's mesh.
+    pub lattice: bool,
 }
 
 /// A friction law and what finds the force with it.
@@ -183,18 +190,18 @@ impl Choice {
             }
             Kernel::Resident => self.resident_parts(),
             Kernel::Node => self.interior().step_parts("nodes/interior"),
-            Kernel::Boundary => self.step_parts("nodes/boundary"),
+            Kernel::Boundary => [self.step_parts("nodes/boundary"), vec!["lib/roles"]].concat(),
             Kernel::NodeProbe => [
-                vec!["kernels/node_probe", "lib/group_sum", self.now(), self.damping_book()],
+                vec!["kernels/node_probe", "lib/group_sum", "lib/roles", self.now(), self.damping_book()],
                 vec![if self.other_works() { "works/take" } else { "works/take_none" }],
                 self.node_parts(),
             ]
             .concat(),
             Kernel::Rim => {
-                vec!["kernels/rim", "lib/gather", "lib/nodes", self.now(), self.gravity_part()]
+                [vec!["kernels/rim", self.now(), self.gravity_part()], self.gather_parts()].concat()
             }
             Kernel::SurfaceState => vec!["kernels/surface_state", "lib/index", self.now()],
-            Kernel::Gather => vec!["kernels/gather", "lib/index", "lib/gather"],
+            Kernel::Gather => [vec!["kernels/gather", "lib/index"], self.gather_parts()].concat(),
             Kernel::Reduce => vec!["kernels/reduce"],
             Kernel::Rebase if self.plus => vec!["kernels/rebase_plus", "lib/index", "lib/two_sum"],
             Kernel::Rebase => vec!["kernels/rebase", "lib/index"],
@@ -218,7 +225,12 @@ impl Choice {
             Element::Full => vec!["element/full", "lib/points"],
             Element::UniformGradient { .. } => vec!["element/uniform_gradient"],
         };
-        [element, vec!["lib/chains", classes, "lib/hex8", "lib/index"], law].concat()
+        let chains: &[&str] = if self.lattice { &["chain/lattice", "lib/lattice"] } else { &["chain/table"] };
+        [element, vec!["lib/chains", classes, "lib/hex8", "lib/index"], chains.to_vec(), law].concat()
+    }
+
+    fn gather_parts(&self) -> Vec<&'static str> {
+        if self.lattice { vec!["gather/lattice", "lib/lattice"] } else { vec!["gather/table"] }
     }
 
     fn force_parts(&self) -> Vec<&'static str> {
@@ -239,7 +251,8 @@ impl Choice {
 
     /// Element and node pass in one.
     fn resident_parts(&self) -> Vec<&'static str> {
-        let mut parts = vec!["kernels/resident", "position/resident", "nodes/all", "lib/take_step"];
+        let mut parts =
+            vec!["kernels/resident", "position/resident", "nodes/all", "lib/roles", "lib/take_step"];
         parts.extend(if self.viscous { vec!["viscosity/rates_resident"] } else { vec![] });
         parts.extend(if self.road { vec!["contact/step_resident"] } else { vec!["contact/step_none"] });
         parts.extend(
@@ -252,7 +265,7 @@ impl Choice {
     }
 
     fn node_parts(&self) -> Vec<&'static str> {
-        [vec!["lib/gather"], self.move_parts()].concat()
+        [self.gather_parts(), self.move_parts()].concat()
     }
 
     fn move_parts(&self) -> Vec<&'static str> {

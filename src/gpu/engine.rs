@@ -51,6 +51,8 @@ pub struct GpuEngine {
     pub(super) steps_per_submit: usize,
     pub(super) fixed_submits: bool,
     pub(super) surface_nodes: Vec<u32>,
+    /// As the device has them, with the sign of [`upload::masses`].
+    pub(super) masses: Vec<f32>,
     /// How the mesh fits into one work group, if it does and may.
     shape: Option<Shape>,
     fits: Option<Shape>,
@@ -111,6 +113,7 @@ impl GpuEngine {
             rim: if model.mesh.rim.is_empty() { RimKind::None } else { RimKind::Prescribed },
             plus,
             shared_classes: chains.shared_classes,
+            lattice: chains.lattice.is_some(),
         };
         let grain = frame::grain(&model.mesh);
         let frame = frame::shift(grain, model.mesh.axle, [0.0; 3], scene.road.as_ref());
@@ -122,7 +125,8 @@ impl GpuEngine {
             chain_groups: chains.groups.len(),
             most_groups: gpu.report.workgroups,
         };
-        let constants = upload::constants(model, scene);
+        let constants = upload::constants(model, scene, &chains);
+        let masses = upload::masses(model, choice.road);
         let buffers = upload::upload(gpu, model, &chains, &choice, &counts, frame, scene.road.as_ref());
         let program = |kernel| Program::new(gpu, &choice, kernel, &constants);
         let bound = |p: Program| Bound::new(gpu, p, |name| buffers.get(canonical(name)));
@@ -154,6 +158,7 @@ impl GpuEngine {
             steps_per_submit: 8,
             fixed_submits: false,
             surface_nodes: if choice.road { model.mesh.surface.clone() } else { Vec::new() },
+            masses,
             choice,
             constants,
             buffers,

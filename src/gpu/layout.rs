@@ -59,9 +59,6 @@ macro_rules! shared {
 }
 
 shared! {
-    /// A node: lumped mass [kg]; role 0xffffffff interior, high bit set: rim node of that index, else surface node.
-    Node { mass: f32, role: u32 }
-
     /// A step of the plan. With a free rim `axle` holds the moves of prescribed components since the window began,
     /// and `rotation` steer and camber alone.
     Step {

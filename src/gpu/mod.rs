@@ -6,6 +6,7 @@ mod check;
 pub mod compose;
 mod device;
 mod engine;
+mod lattice;
 pub mod layout;
 pub mod limits;
 pub mod program;

@@ -10,7 +10,7 @@ use std::collections::HashSet;
 const THREADS: usize = 256;
 
 /// Storage buffers that its kernel binds; on adapters with fewer the passes take all meshes.
-pub const RESIDENT_STORAGE_BUFFERS: u32 = 21;
+pub const RESIDENT_STORAGE_BUFFERS: u32 = 20;
 
 /// How a mesh is laid out in a work group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

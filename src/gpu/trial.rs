@@ -27,7 +27,7 @@ impl GpuEngine {
     }
 
     pub(super) fn write_positions(&self, x: &[[f64; 3]]) {
-        let (hi, lo) = split(x, self.frame);
+        let (hi, lo) = split(x, self.frame, &self.masses);
         let write = |name, data: &[[f32; 4]]| {
             self.gpu.queue.write_buffer(self.buffers.get(name), 0, bytemuck::cast_slice(data));
         };

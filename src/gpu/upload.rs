@@ -5,7 +5,7 @@ use super::buffers::{self, Buffers, PLAN, STEP_STRIDE, vec4};
 use super::chains::{Chains, LANES};
 use super::compose::Choice;
 use super::engine::{Counts, GROUP, PARTIALS};
-use super::layout::{self, Node, RimSum, SurfaceRecord};
+use super::layout::{self, RimSum, SurfaceRecord};
 use crate::model::mesh::Mesh;
 use crate::model::{Model, areas};
 use crate::scene::{Friction, Road, Scene};
@@ -15,7 +15,7 @@ const INTERIOR: u32 = 0xffff_ffff;
 const RIM: u32 = 0x8000_0000;
 
 /// Values of every constant a kernel may declare.
-pub fn constants(model: &Model, scene: &Scene) -> Vec<(&'static str, f64)> {
+pub fn constants(model: &Model, scene: &Scene, chains: &Chains) -> Vec<(&'static str, f64)> {
     use crate::scene::Law::*;
     let [g0, g1, g2] = match model.law {
         NeoHookean { g0, g1 } => [g0, g1, 0.0],
@@ -23,6 +23,7 @@ pub fn constants(model: &Model, scene: &Scene) -> Vec<(&'static str, f64)> {
     };
     let mut all = vec![("g0", g0), ("g1", g1), ("g2", g2), ("eta", model.viscosity.unwrap_or(0.0))];
     all.extend(["gravity_x", "gravity_y", "gravity_z"].into_iter().zip(scene.gravity));
+    all.extend(chains.lattice.iter().flat_map(|l| l.constants(chains.longest)));
     all.extend(scene.friction.iter().flat_map(friction_constants));
     if let Some(Road::Plane { point, normal, velocity }) = scene.road {
         all.extend(["normal_x", "normal_y", "normal_z"].into_iter().zip(normal));
@@ -71,13 +72,15 @@ pub fn upload(
     let mut b = Buffers::default();
     let mesh = &model.mesh;
     b.filled(gpu, "chain_groups", &chains.groups);
-    b.filled(gpu, "chain_nodes", &chains.nodes);
     b.filled(gpu, "chain_classes", &chains.classes);
-    b.filled(gpu, "chain_elements", &chains.elements);
     buffers::upload_classes(&mut b, gpu, model, chains.shared_classes);
-    b.filled(gpu, "corner_start", &chains.start);
-    b.filled(gpu, "corners", &chains.slots);
-    b.filled(gpu, "nodes", &nodes(model, choice.road));
+    if chains.lattice.is_none() {
+        b.filled(gpu, "chain_nodes", &chains.nodes);
+        b.filled(gpu, "chain_elements", &chains.elements);
+        b.filled(gpu, "corner_start", &chains.start);
+        b.filled(gpu, "corners", &chains.slots);
+    }
+    b.filled(gpu, "roles", &roles(model, choice.road));
     b.filled(gpu, "rim_nodes", &mesh.rim);
     let arm = |&n: &u32| vec4(std::array::from_fn(|d| mesh.nodes[n as usize][d] - mesh.axle[d]));
     b.filled(gpu, "rim_arms", &mesh.rim.iter().map(arm).collect::<Vec<_>>());
@@ -90,7 +93,7 @@ pub fn upload(
     if let (Some(road), true) = (road, choice.friction.is_some_and(|law| law.needs_area())) {
         b.filled(gpu, "inverse_areas", &inverse_areas(mesh, |n| mesh.nodes[n as usize], road));
     }
-    let (hi, lo) = split(&mesh.nodes, frame);
+    let (hi, lo) = split(&mesh.nodes, frame, &masses(model, choice.road));
     b.filled(gpu, "positions", &hi);
     if choice.plus {
         b.filled(gpu, "positions_lo", &lo);
@@ -127,22 +130,34 @@ pub fn upload(
     b
 }
 
-/// Positions relative to the frame, as single-precision hi and lo parts.
-pub fn split(x: &[[f64; 3]], frame: [f64; 3]) -> (Vec<[f32; 4]>, Vec<[f32; 4]>) {
-    let local = |x: &[f64; 3]| -> [f64; 3] { std::array::from_fn(|d| x[d] - frame[d]) };
-    let low = |v: f64| f64::from(v as f32 - 0.0) - v;
-    x.iter().map(local).map(|x| (vec4(x), vec4(x.map(|v| -low(v))))).unzip()
+/// Positions relative to the frame, as single-precision hi and lo parts, with the masses beside them.
+pub fn split(x: &[[f64; 3]], frame: [f64; 3], masses: &[f32]) -> (Vec<[f32; 4]>, Vec<[f32; 4]>) {
+    let pair = |(x, &mass): (&[f64; 3], &f32)| {
+        let local: [f64; 3] = std::array::from_fn(|d| x[d] - frame[d]);
+        let [a, b, c, _] = vec4(local);
+        let low = vec4(local.map(|v| v - f64::from(v as f32)));
+        ([a, b, c, mass], low)
+    };
+    x.iter().zip(masses).map(pair).unzip()
 }
 
-fn nodes(model: &Model, road: bool) -> Vec<Node> {
-    let mut nodes: Vec<Node> = model.mass.iter().map(|&m| Node { mass: m as f32, role: INTERIOR }).collect();
+/// Mass of each node [kg], negative if it can touch the road or belongs to the rim.
+pub fn masses(model: &Model, road: bool) -> Vec<f32> {
+    let mut masses: Vec<f32> = model.mass.iter().map(|&m| m as f32).collect();
+    let surface = if road { &model.mesh.surface[..] } else { &[] };
+    surface.iter().chain(&model.mesh.rim).for_each(|&n| masses[n as usize] *= -1.0);
+    masses
+}
+
+fn roles(model: &Model, road: bool) -> Vec<u32> {
+    let mut roles = vec![INTERIOR; model.node_count()];
     if road {
         for (k, &n) in model.mesh.surface.iter().enumerate() {
-            nodes[n as usize].role = k as u32;
+            roles[n as usize] = k as u32;
         }
     }
     for (k, &n) in model.mesh.rim.iter().enumerate() {
-        nodes[n as usize].role = RIM | k as u32;
+        roles[n as usize] = RIM | k as u32;
     }
-    nodes
+    roles
 }

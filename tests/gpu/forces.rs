@@ -8,7 +8,7 @@ use crate::rig::{self, Noise, Who, note, relative, scene};
 use hexroll::gpu::Gpu;
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
-use hexroll::scene::{Body, Element, Law, Scene};
+use hexroll::scene::{Body, Element, Law, MeshSpec, Scene};
 
 /// Relative L2 error of the forces. Single precision leaves 6e-8 of a coordinate of 30 mm, which is 2e-7 of an edge of
 /// 9 mm where strains are 0.1, and as much again in J - 1: about 2e-6. Measured 0.5e-6 to 2.5e-6, as on the CPU in f32,
@@ -109,6 +109,60 @@ fn check(gpu: &Gpu, case: &Case, who: Who, body: &Body, tolerance: f64) {
     for (constant, mutant) in mutants(body) {
         let error = relative(&got, &case.forces(gpu, Who::Cpu64, &mutant));
         assert!(error > 5.0 * tolerance, "{name}: {constant} off and an error of only {error:.2e}");
+    }
+}
+
+/// The mesh with node n as node 7 n + 3 and elements in another order: no generator's numbering.
+fn renumbered(mesh: &Mesh) -> Mesh {
+    let (nodes, elements) = (mesh.nodes.len(), mesh.hexes.len());
+    assert!(!nodes.is_multiple_of(7) && !elements.is_multiple_of(11), "the strides would not meet all");
+    let number: Vec<u32> = (0..nodes).map(|n| ((7 * n + 3) % nodes) as u32).collect();
+    let mut other = mesh.clone();
+    for (n, x) in mesh.nodes.iter().enumerate() {
+        other.nodes[number[n] as usize] = *x;
+    }
+    other.hexes = (0..elements).map(|e| mesh.hexes[11 * e % elements].map(|n| number[n as usize])).collect();
+    other.facets = mesh.facets.iter().map(|f| f.map(|n| number[n as usize])).collect();
+    other.surface = mesh.surface.iter().map(|&n| number[n as usize]).collect();
+    other.surface.sort_unstable();
+    other
+}
+
+/// Meshes whose numbers a shader computes with, and meshes with tables: one element thick, taller than one chain (the
+/// last one shorter), more than one work group wide, of few shape classes and of one a element.
+pub fn every_numbering(gpu: &Gpu) {
+    for elements in [[3, 4, 37], [1, 1, 40], [9, 10, 2], [2, 1, 1]] {
+        for distorted in [false, true] {
+            let mut case = case();
+            let size = [0.01, 0.01, 0.01].into_iter().zip(elements);
+            let size: Vec<f64> = size.map(|(s, n)| s * n as f64).collect();
+            let spec = MeshSpec::Block { size: [size[0], size[1], size[2]], elements };
+            case.mesh = Mesh::generate(&spec, [0.0; 3], None);
+            let mut noise = Noise::new(11);
+            if distorted {
+                for x in &mut case.mesh.nodes {
+                    let by = noise.vector(0.8e-3);
+                    *x = std::array::from_fn(|d| x[d] + by[d]);
+                }
+            }
+            for table in [false, true] {
+                if table {
+                    case.mesh = renumbered(&case.mesh);
+                }
+                let nodes = &case.mesh.nodes;
+                let moved = |x: &[f64; 3], by: [f64; 3]| std::array::from_fn(|d| x[d] + by[d]);
+                case.x = nodes.iter().map(|x| moved(x, noise.vector(0.5e-3))).collect();
+                case.v = nodes.iter().map(|_| noise.vector(20.0)).collect();
+                let body = Body { viscosity: Some(400.0), ..case.scene.body.clone() };
+                let [exact, plain, plus] =
+                    [Who::Cpu64, Who::Gpu, Who::Plus].map(|who| case.forces(gpu, who, &body));
+                // A coordinate of 0.4 m is rounded to 1.5e-8 m, of an edge of 10 mm whose strains are 0.1: 1.5e-5.
+                let errors = [relative(&plain, &exact), relative(&plus, &exact)];
+                let name = format!("{elements:?}, distorted {distorted}, table {table}: {errors:.1?}");
+                note(|| name.clone());
+                assert!(errors[0] < 5e-5 && errors[1] < TOLERANCE, "{name}");
+            }
+        }
     }
 }
 

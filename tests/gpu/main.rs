@@ -28,9 +28,10 @@ use std::sync::Arc;
 
 type Check = fn(&Gpu);
 
-const CHECKS: [(&str, Check); 21] = [
+const CHECKS: [(&str, Check); 22] = [
     ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
     ("forces_as_pairs_are_the_cpus", forces::pairs),
+    ("forces_of_every_numbering_are_the_cpus", forces::every_numbering),
     ("a_step_with_everything_is_the_cpus", steps::everything),
     ("a_spinning_vibrating_block_is_the_cpus", runs::spinning_block),
     ("a_pressed_wheel_is_the_cpus", runs::pressed_wheel),

@@ -99,6 +99,7 @@ fn choice(scene: &Scene, chains: &Chains) -> Choice {
         rim: if scene.rim.is_some() { RimKind::Prescribed } else { RimKind::None },
         plus: false,
         shared_classes: chains.shared_classes,
+        lattice: chains.lattice.is_some(),
     }
 }
 
@@ -198,7 +199,7 @@ fn entries(name: &str, model: &Model, chains: &Chains) -> Option<u64> {
         "classes" if chains.shared_classes => chains::SHARED_CLASSES,
         "classes" => model.classes.len(),
         "corner_start" => model.node_count() + 1,
-        "nodes" | "positions" | "positions_lo" | "velocities" | "works" | "held" => model.node_count(),
+        "roles" | "positions" | "positions_lo" | "velocities" | "works" | "held" => model.node_count(),
         "boundary" => mesh.surface.len() + mesh.rim.len(),
         "rim_nodes" | "rim_arms" | "rim_sums" => mesh.rim.len(),
         "surface_nodes" | "surface_sums" | "contact_states" | "inverse_areas" => mesh.surface.len(),

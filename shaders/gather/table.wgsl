@@ -1,4 +1,4 @@
-// The internal force of a node; twin of src/cpu/nodes.rs.
+// The internal force of a node of any mesh; twin of src/cpu/nodes.rs.
 
 // Corner slots of a node: corners[corner_start[n]] .. corners[corner_start[n + 1]].
 @group(0) @binding(0) var<storage, read> corner_start: array<u32>;

@@ -1,0 +1,25 @@
+// Nodes and elements of chains from tables: any mesh.
+
+// The nodes of a face: corners 0..3 of 64 chains each.
+@group(0) @binding(1) var<storage, read> chain_nodes: array<u32>;
+@group(0) @binding(22) var<storage, read> chain_elements: array<u32>;
+
+fn face_at(at: u32) -> vec4u {
+    return vec4u(
+        chain_nodes[at], chain_nodes[at + CORNER], chain_nodes[at + 2u * CORNER], chain_nodes[at + 3u * CORNER]);
+}
+
+// Corners 0..3 of the first element.
+fn first_face(chain: Chain) -> vec4u {
+    return face_at(chain.at);
+}
+
+// Corners 4..7 of the element between two faces, whose upper one begins at slot `at`.
+fn next_face(at: u32, before: vec4u) -> vec4u {
+    return face_at(at);
+}
+
+// The element number `level` of a chain.
+fn element_at(chain: Chain, level: u32) -> u32 {
+    return chain_elements[element_entry(chain.at + level * FACE)];
+}

@@ -1,0 +1,145 @@
+//! Meshes whose numbering is a generator's: what tables would say follows from the numbers.
+
+use super::chains::LANES;
+use crate::model::mesh::Mesh;
+
+/// Node (i, j, k) is number (k rows + j) row + i; elements likewise; corners 4 to 7 of an element are one k above
+/// corners 0 to 3. Rows are open, or close on themselves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Lattice {
+    /// Nodes along i, and along j.
+    pub row: usize,
+    pub rows: usize,
+    /// Elements along i, j, k.
+    pub elements: [usize; 3],
+}
+
+impl Lattice {
+    /// The lattice that all of a mesh is numbered by, if there is one.
+    pub fn of(mesh: &Mesh) -> Option<Lattice> {
+        let first = mesh.hexes.first()?;
+        let (row, layer) = (first[3] as usize, first[4] as usize);
+        if row == 0 || layer == 0 || !layer.is_multiple_of(row) {
+            return None;
+        }
+        let rows = layer / row;
+        let closed = mesh.hexes.get(row - 1).is_some_and(|h| h[0] as usize == row - 1);
+        let columns = if closed { row } else { row - 1 };
+        let per_layer = columns * rows.checked_sub(1)?;
+        if per_layer == 0 || !mesh.hexes.len().is_multiple_of(per_layer) {
+            return None;
+        }
+        let lattice = Lattice { row, rows, elements: [columns, rows - 1, mesh.hexes.len() / per_layer] };
+        let nodes = row * rows * (lattice.elements[2] + 1);
+        let all = mesh.hexes.iter().enumerate().all(|(e, hex)| lattice.hex(e) == *hex);
+        (nodes == mesh.nodes.len() && all).then_some(lattice)
+    }
+
+    /// Nodes of element `e`.
+    fn hex(&self, e: usize) -> [u32; 8] {
+        let [ni, nj, _] = self.elements;
+        let (i, j, k) = (e % ni, e / ni % nj, e / ni / nj);
+        let low = (k * self.rows + j) * self.row;
+        let node = |along: usize, across: usize, up: usize| {
+            (low + (up * self.rows + across) * self.row + (i + along) % self.row) as u32
+        };
+        [
+            node(0, 0, 0),
+            node(1, 0, 0),
+            node(1, 1, 0),
+            node(0, 1, 0),
+            node(0, 0, 1),
+            node(1, 0, 1),
+            node(1, 1, 1),
+            node(0, 1, 1),
+        ]
+    }
+
+    /// Columns of elements.
+    pub fn columns(&self) -> usize {
+        self.elements[0] * self.elements[1]
+    }
+
+    /// Elements of a chain, and of one of the last layer, if none may have more than `longest`.
+    pub fn lengths(&self, longest: usize) -> [usize; 2] {
+        let tall = self.elements[2];
+        let length = tall.div_ceil(tall.div_ceil(longest));
+        [length, tall - (tall.div_ceil(length) - 1) * length]
+    }
+
+    /// Values of the constants that shaders compute with.
+    pub fn constants(&self, longest: usize) -> [(&'static str, f64); 7] {
+        let [length, last] = self.lengths(longest);
+        [
+            ("lattice_row", self.row),
+            ("lattice_rows", self.rows),
+            ("lattice_columns", self.elements[0]),
+            ("lattice_groups", self.columns().div_ceil(LANES)),
+            ("lattice_length", length),
+            ("lattice_layers", self.elements[2].div_ceil(length)),
+            ("lattice_last", last),
+        ]
+        .map(|(name, value)| (name, value as f64))
+    }
+
+    /// Chains of at most `longest` elements, layer by layer.
+    pub fn chains(&self, longest: usize) -> Vec<Vec<Vec<u32>>> {
+        let ([length, _], columns, tall) = (self.lengths(longest), self.columns(), self.elements[2]);
+        let chain = |column: usize, k: usize| {
+            (k..(k + length).min(tall)).map(|k| (k * columns + column) as u32).collect()
+        };
+        (0..tall).step_by(length).map(|k| (0..columns).map(|column| chain(column, k)).collect()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::mesh::Mesh;
+    use crate::scene::MeshSpec;
+
+    fn ring(elements: [usize; 3]) -> Mesh {
+        let spec = MeshSpec::Ring { outer_radius: 2.0, inner_radius: 1.0, width: 0.5, elements };
+        Mesh::generate(&spec, [0.0; 3], None)
+    }
+
+    /// Rings are closed, blocks are open, however flat.
+    #[test]
+    fn generated_meshes_are_lattices() {
+        for [around, through, across] in [[7, 3, 2], [8, 1, 1], [3, 2, 1]] {
+            let lattice = Lattice::of(&ring([around, through, across])).unwrap();
+            assert_eq!(
+                lattice,
+                Lattice { row: around, rows: across + 1, elements: [around, across, through] }
+            );
+        }
+        for elements in [[7, 3, 2], [1, 1, 1], [2, 1, 5], [1, 4, 1]] {
+            let mesh = Mesh::generate(&MeshSpec::Block { size: [1.0; 3], elements }, [0.0; 3], None);
+            let [i, j, _] = elements;
+            assert_eq!(Lattice::of(&mesh), Some(Lattice { row: i + 1, rows: j + 1, elements }));
+        }
+    }
+
+    /// One element that is numbered otherwise, or one node that none has, and the mesh needs its tables.
+    #[test]
+    fn other_numberings_are_no_lattices() {
+        let mut turned = ring([6, 3, 2]);
+        turned.hexes[17].rotate_left(4);
+        assert_eq!(Lattice::of(&turned), None);
+        let mut swapped = ring([6, 3, 2]);
+        swapped.hexes.swap(4, 5);
+        assert_eq!(Lattice::of(&swapped), None);
+        let mut more = ring([6, 3, 2]);
+        more.nodes.push([0.0; 3]);
+        assert_eq!(Lattice::of(&more), None);
+    }
+
+    #[test]
+    fn chains_of_a_column_are_about_equal() {
+        let lattice = Lattice::of(&ring([4, 20, 2])).unwrap();
+        assert_eq!(lattice.lengths(32), [20, 20]);
+        assert_eq!(lattice.lengths(16), [10, 10]);
+        assert_eq!(lattice.lengths(8), [7, 6]);
+        assert_eq!(lattice.lengths(1), [1, 1]);
+    }
+}
