@@ -17,7 +17,7 @@ pub mod markdown;
 pub mod record;
 pub mod report;
 pub mod rows;
-mod shuffle;
+pub mod shuffle;
 pub mod straight;
 pub mod wheel;
 pub mod work;

@@ -1,10 +1,10 @@
 //! The element pass, several elements at a time: forces onto the node lines.
 
-use super::chains::{BACK, FRONT};
 use super::family::{LawFamily, ViscosityFamily};
 use super::layout::{Item, Loose, Row};
 use super::state::{Aligned, View};
 use crate::model::Model;
+use crate::model::chains::{BACK, FRONT};
 use crate::physics::element::{Class, Corners, Formulation, Full, LaneShapes, Q1p0, UniformGradient};
 use crate::physics::lanes::{Array, Lanes, Level, WIDEST, first};
 use crate::physics::material::{Law, Viscosity};

@@ -9,8 +9,8 @@
 //! which the group's rows are added in order. A node's force is the sum of its slots, first to last: the same bits
 //! however the groups are shared out among threads.
 
-use super::chains::{BACK, Chain, FRONT, chains};
 use crate::model::Model;
+use crate::model::chains::{BACK, Chain, FRONT, chains};
 use crate::physics::lanes::WIDEST;
 use std::ops::Range;
 

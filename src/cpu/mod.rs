@@ -1,7 +1,6 @@
 //! The reference engine: the same passes in the same order as the GPU's, in f64 or f32, on any number of threads
 //! with the same bits.
 
-mod chains;
 mod elements;
 mod energies;
 mod engine;

@@ -4,6 +4,7 @@ use super::Gpu;
 use super::buffers::{self, Buffers, PLAN, vec4};
 use super::chains::{self, Chains};
 use super::compose::{Choice, Kernel, RimKind};
+use super::order::{self, Order, Ordered};
 use super::program::Program;
 use super::readback::Readback;
 use super::resident::Shape;
@@ -42,6 +43,8 @@ pub struct GpuEngine {
     pub(super) road: Option<Road>,
     /// For the areas of surface nodes, where friction looks at pressure.
     pub(super) mesh: Option<Mesh>,
+    /// The model's numbers by the device's, where they differ.
+    pub(super) order: Option<Order>,
     pub(super) frame: [f64; 3],
     grain: f64,
     pub(super) counts: Counts,
@@ -99,6 +102,9 @@ impl GpuEngine {
     /// # Errors
     /// The scene does not fit the adapter's limits, or (`plus`) the adapter's arithmetic spoils compensated sums.
     pub fn new(gpu: &Gpu, model: &Model, scene: &Scene, plus: bool) -> Result<Self> {
+        let mesh = scene.friction.filter(Friction::needs_area).map(|_| model.mesh.clone());
+        let Ordered { model, order } = order::ordered(model);
+        let model = &*model;
         let chains = Chains::new(model, chains::longest(gpu.report.software, model.element_count()));
         buffers::check_limits(gpu, model, &chains, scene.road.is_some())?;
         let choice = Choice {
@@ -147,7 +153,8 @@ impl GpuEngine {
             rim: FreeRim::new(model),
             gpu: gpu.clone(),
             road: scene.road,
-            mesh: scene.friction.filter(Friction::needs_area).map(|_| model.mesh.clone()),
+            mesh,
+            order,
             setup: StageSetup::default(),
             steps: 0,
             window_steps: 0,
@@ -252,13 +259,26 @@ impl GpuEngine {
         }
     }
 
+    /// What stands by the device's nodes, by the model's.
+    pub(super) fn by_model<T: Copy + Default>(&self, values: Vec<T>) -> Vec<T> {
+        match &self.order {
+            Some(order) => order.to_model(&values),
+            None => values,
+        }
+    }
+
+    /// The reverse.
+    pub(super) fn by_device<T: Copy>(&self, values: &[T]) -> Vec<T> {
+        self.order.as_ref().map_or(values.to_vec(), |order| order.to_device(values))
+    }
+
     /// Absolute positions of f32 or f32+ data.
     pub(super) fn absolute(&self, hi: &[f32], lo: Option<&[f32]>) -> Vec<[f64; 3]> {
         let at = |n: usize, d: usize| {
             let low = lo.map_or(0.0, |lo| f64::from(lo[4 * n + d]));
             f64::from(hi[4 * n + d]) + low + self.frame[d]
         };
-        (0..hi.len() / 4).map(|n| std::array::from_fn(|d| at(n, d))).collect()
+        self.by_model((0..hi.len() / 4).map(|n| std::array::from_fn(|d| at(n, d))).collect())
     }
 }
 
@@ -308,13 +328,13 @@ impl Engine for GpuEngine {
         let lo = self.choice.plus.then(|| read.add(self.buffers.get("positions_lo")));
         let data = read.run(&self.gpu, |_| {})?;
         let floats = |part| -> &[f32] { bytemuck::cast_slice(data.part(part)) };
-        let v = floats(v).chunks_exact(4).map(|v| [v[0], v[1], v[2]].map(f64::from)).collect();
-        Ok(State { x: self.absolute(floats(x), lo.map(floats)), v })
+        let v: Vec<[f64; 3]> = floats(v).chunks_exact(4).map(|v| [v[0], v[1], v[2]].map(f64::from)).collect();
+        Ok(State { x: self.absolute(floats(x), lo.map(floats)), v: self.by_model(v) })
     }
 
     fn set_velocity(&mut self, v: &[[f64; 3]], rim_rate: &Coordinates) -> Result<()> {
         self.restore()?;
-        let mut v: Vec<[f32; 4]> = v.iter().map(|&v| vec4(v)).collect();
+        let mut v: Vec<[f32; 4]> = self.by_device(v).into_iter().map(vec4).collect();
         if self.window_steps > 0 {
             // The window's works stand beside the velocities.
             let mut read = Readback::default();

@@ -9,6 +9,7 @@ mod engine;
 mod lattice;
 pub mod layout;
 pub mod limits;
+pub mod order;
 pub mod program;
 mod readback;
 mod resident;

@@ -206,7 +206,8 @@ impl GpuEngine {
         let data = read.run(&self.gpu, |_| {})?;
         let flag = |part| -> &[u32] { bytemuck::cast_slice(data.part(part)) };
         let (failure, done) = (flag(failure), flag(done)[0]);
-        verdict::failure([failure[0], failure[1]], steps, first)?;
+        let element = |e: usize| self.order.as_ref().map_or(e, |order| order.elements[e] as usize);
+        verdict::failure([failure[0], failure[1]], steps, first, element)?;
         verdict::sentinel(done, self.steps).map_err(|detail| self.gpu.error(detail))
     }
 }

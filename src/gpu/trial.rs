@@ -12,7 +12,7 @@ impl GpuEngine {
     pub(super) fn trial_force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {
         self.lend()?;
         self.write_positions(x);
-        let v: Vec<[f32; 4]> = v.iter().map(|&v| vec4(v)).collect();
+        let v: Vec<[f32; 4]> = self.by_device(v).into_iter().map(vec4).collect();
         self.gpu.queue.write_buffer(self.buffers.get("velocities"), 0, bytemuck::cast_slice(&v));
         let mut read = Readback::default();
         // The gather pass writes where the velocities were: the element pass has read them.
@@ -23,11 +23,11 @@ impl GpuEngine {
             self.gather.dispatch(&mut pass, self.counts.groups(self.counts.nodes), 0);
         })?;
         let forces: &[f32] = bytemuck::cast_slice(data.part(forces));
-        Ok(forces.chunks_exact(4).map(|f| [f[0], f[1], f[2]].map(f64::from)).collect())
+        Ok(self.by_model(forces.chunks_exact(4).map(|f| [f[0], f[1], f[2]].map(f64::from)).collect()))
     }
 
     pub(super) fn write_positions(&self, x: &[[f64; 3]]) {
-        let (hi, lo) = split(x, self.frame, &self.masses);
+        let (hi, lo) = split(&self.by_device(x), self.frame, &self.masses);
         let write = |name, data: &[[f32; 4]]| {
             self.gpu.queue.write_buffer(self.buffers.get(name), 0, bytemuck::cast_slice(data));
         };

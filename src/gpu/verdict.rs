@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 
 /// The error in the device's failure record `[step, 2 element + (1: not finite)]`, in which all bits set means none.
 /// `steps` are those taken since `first`.
-pub fn failure(record: [u32; 2], steps: &[Step], first: u64) -> Result<()> {
+pub fn failure(record: [u32; 2], steps: &[Step], first: u64, number: impl Fn(usize) -> usize) -> Result<()> {
     let [step, found] = record;
     if step == u32::MAX {
         return Ok(());
@@ -13,7 +13,7 @@ pub fn failure(record: [u32; 2], steps: &[Step], first: u64) -> Result<()> {
     // The device counts in 32 bits.
     let step = first + u64::from(step.wrapping_sub(first as u32));
     let time = steps.get((step - first) as usize).map_or(f64::NAN, |s| s.time);
-    let element = (found / 2) as usize;
+    let element = number((found / 2) as usize);
     Err(match found % 2 {
         0 => Error::Inverted { step, time, element },
         _ => Error::NotFinite { step, time, element },
@@ -42,15 +42,15 @@ mod tests {
 
     #[test]
     fn a_failure_names_its_step_time_and_element() {
-        assert!(failure([u32::MAX; 2], &steps(3), 7).is_ok());
-        let inverted = failure([8, 2 * 5], &steps(3), 7);
+        assert!(failure([u32::MAX; 2], &steps(3), 7, |e| e).is_ok());
+        let inverted = failure([8, 2 * 5], &steps(3), 7, |e| e);
         assert!(matches!(inverted, Err(Error::Inverted { step: 8, element: 5, time: 1.0 })), "{inverted:?}");
-        let nan = failure([9, 2 * 5 + 1], &steps(3), 7);
+        let nan = failure([9, 2 * 5 + 1], &steps(3), 7, |e| e);
         assert!(matches!(nan, Err(Error::NotFinite { step: 9, element: 5, time: 2.0 })), "{nan:?}");
         // Beyond 2^32 steps the device's counter has wrapped.
         let first = (1 << 32) - 1;
         assert!(
-            matches!(failure([1, 0], &steps(3), first), Err(Error::Inverted { step, .. }) if step == first + 2)
+            matches!(failure([1, 0], &steps(3), first, |e| e), Err(Error::Inverted { step, .. }) if step == first + 2)
         );
     }
 

@@ -1,6 +1,7 @@
 //! SI, f64 description of the discrete body: mesh, mass, shape classes, who gathers from whom.
 
 pub mod areas;
+pub mod chains;
 mod classes;
 pub mod frame;
 pub mod mesh;

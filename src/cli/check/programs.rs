@@ -8,6 +8,7 @@ use serde::Serialize;
 use crate::engine::StageSetup;
 use crate::gpu::chains::{self, Chains};
 use crate::gpu::compose::{Choice, Kernel, RimKind};
+use crate::gpu::order;
 use crate::model::Model;
 use crate::scene::{Drive, Scene};
 use crate::{Error, Result};
@@ -60,6 +61,8 @@ impl GpuPlan {
     /// # Errors
     /// [`Error::Device`](crate::Error::Device) if a program cannot be composed.
     pub fn of(scene: &Scene, model: &Model) -> Result<GpuPlan> {
+        let ordered = order::ordered(model);
+        let model = &*ordered.model;
         let mut programs: Vec<Program> = Vec::new();
         let chains = Chains::new(model, chains::longest(false, model.element_count()));
         let scene_choice = choice(scene, &chains);
