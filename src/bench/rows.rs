@@ -254,8 +254,9 @@ impl Bench<'_> {
         let steps = steps + by_pass.steps;
         let state = engine.state()?;
         let level = Level::detect();
+        let memory = Some(engine.bytes_per_element());
         let by_pass = Some(by_pass);
-        Ok(Timed { kind, level, threads: 0, copies: 1, us, steps, batch, memory: None, state, by_pass })
+        Ok(Timed { kind, level, threads: 0, copies: 1, us, steps, batch, memory, state, by_pass })
     }
 
     fn row(&mut self, model: &Model, roll: &Roll, timed: &Timed, reference: &State) -> Row {
@@ -264,7 +265,7 @@ impl Bench<'_> {
         let (mut passes, mix) = cost(kind, model);
         let mut pass_us = Vec::new();
         if let Some(times) = &timed.by_pass {
-            passes = gpu_passes(times, &passes);
+            passes = gpu_passes(times, model);
             let each = |p: &PassTime| p.seconds.map(|s| 1e6 * s / times.steps as f64);
             pass_us = times.passes.iter().filter_map(each).collect();
         }
@@ -338,9 +339,16 @@ fn cost(kind: Kind, model: &Model) -> (Vec<Pass>, f64) {
     (passes, operations.flops() as f64 / (2.0 * operations.places() as f64))
 }
 
-/// Passes of a GPU engine: the bytes of their bindings, and the arithmetic of those of the same name.
-fn gpu_passes(times: &PassTimes, alike: &[Pass]) -> Vec<Pass> {
-    let flops = |kernel: &str| alike.iter().find(|p| kernel.starts_with(&p.name)).map_or(0.0, |p| p.flops);
+/// Passes of a GPU engine: the bytes of their bindings, and their arithmetic. That of all nodes is booked in the pass of
+/// most of them.
+fn gpu_passes(times: &PassTimes, model: &Model) -> Vec<Pass> {
+    let [elements, nodes] = work::step_operations::<f32>(model);
+    let flops = |kernel: &str| match kernel {
+        "element_force" => elements,
+        "node" => nodes,
+        "resident" => elements + nodes,
+        _ => 0.0,
+    };
     let pass = |p: &PassTime| Pass { name: p.kernel.clone(), bytes: p.bytes as f64, flops: flops(&p.kernel) };
     times.passes.iter().map(pass).collect()
 }

@@ -77,7 +77,7 @@ pub fn node_operations<T: Real>(corners: usize) -> Operations {
 }
 
 /// Operations of a step of the whole model, the element pass and the node pass.
-fn step_operations<T: Real>(model: &Model) -> [f64; 2] {
+pub fn step_operations<T: Real>(model: &Model) -> [f64; 2] {
     let element = element_operations::<T>(model).flops() as f64;
     // Corners are shared out among the nodes: one sum a corner, wherever it goes.
     let (bare, one) = (node_operations::<T>(0).flops() as f64, node_operations::<T>(1).flops() as f64);

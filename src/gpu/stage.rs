@@ -11,19 +11,34 @@ use crate::engine::StageSetup;
 use crate::error::Result;
 use crate::physics::rim::SPIN;
 
+/// Arrays by node, and the slots and lists by which nodes gather.
+const BY_NODE: [&str; 9] =
+    ["positions", "positions_lo", "velocities", "works", "held", "roles", "slots", "corner_start", "corners"];
+
+/// Arrays of which a step touches an entry or none: its own place among the steps, the names of elements that fail.
+const SELDOM: [&str; 3] = ["contact_steps", "plan", "chain_elements"];
+
 /// A program with its buffers.
 pub struct Bound {
     program: Program,
     group: wgpu::BindGroup,
-    /// Bytes of the bindings it reads, plus those it writes.
-    pub touched: u64,
+    /// Bytes of the bindings it reads, plus those it writes: of arrays by node or slot, and of all others.
+    touched: [u64; 2],
 }
 
 impl Bound {
     pub fn new<'b>(gpu: &Gpu, program: Program, of: impl Fn(&str) -> &'b wgpu::Buffer) -> Bound {
-        let touched = program.bindings.iter().map(|b| b.touched(of(&b.name).size())).sum();
+        let mut touched = [0; 2];
+        for b in program.bindings.iter().filter(|b| !SELDOM.contains(&&*b.name)) {
+            touched[usize::from(!BY_NODE.contains(&&*b.name))] += b.touched(of(&b.name).size());
+        }
         let group = program.bind(gpu, of);
         Bound { program, group, touched }
+    }
+
+    /// Bytes that a pass moves which meets `share` of all nodes, every entry of an array once.
+    pub fn bytes(&self, share: f64) -> u64 {
+        (share * self.touched[0] as f64) as u64 + self.touched[1]
     }
 
     /// Records one dispatch; `offset` into the plan is not read by programs without a step.

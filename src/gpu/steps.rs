@@ -19,6 +19,8 @@ pub(super) struct Pass<'e> {
     pub name: &'static str,
     pub program: &'e Bound,
     pub groups: [u32; 3],
+    /// Share of the nodes that it moves; 1 where it is about elements.
+    pub share: f64,
 }
 
 impl Pass<'_> {
@@ -100,18 +102,35 @@ impl GpuEngine {
     pub(super) fn passes(&self) -> Vec<Pass<'_>> {
         let stage = self.stage.as_ref().expect("a stage is composed before its passes are asked for");
         if let Some(program) = &stage.resident {
-            return vec![Pass { name: "resident", program, groups: [1, 1, 1] }];
+            return vec![Pass { name: "resident", program, groups: [1, 1, 1], share: 1.0 }];
         }
-        let mut passes =
-            vec![Pass { name: "element_force", program: &self.force, groups: self.element_groups() }];
-        passes.extend(stage.rim.as_ref().map(|program| Pass { name: "rim", program, groups: [1, 1, 1] }));
+        let share = |count: usize| count as f64 / self.counts.nodes as f64;
+        let (rim, boundary) = (share(self.counts.rim), share(self.counts.surface + self.counts.rim));
+        let mut passes = vec![Pass {
+            name: "element_force",
+            program: &self.force,
+            groups: self.element_groups(),
+            share: 1.0,
+        }];
+        passes.extend(stage.rim.as_ref().map(|program| Pass {
+            name: "rim",
+            program,
+            groups: [1, 1, 1],
+            share: rim,
+        }));
         passes.push(Pass {
             name: "node",
             program: &stage.node,
             groups: self.counts.groups(self.counts.nodes),
+            share: 1.0 - boundary,
         });
         let groups = self.counts.groups(self.counts.surface + self.counts.rim);
-        passes.extend(stage.boundary.as_ref().map(|program| Pass { name: "boundary", program, groups }));
+        passes.extend(stage.boundary.as_ref().map(|program| Pass {
+            name: "boundary",
+            program,
+            groups,
+            share: boundary,
+        }));
         passes
     }
 

@@ -56,7 +56,7 @@ impl GpuEngine {
         let time = |(k, pass): (usize, super::steps::Pass)| PassTime {
             kernel: pass.name.to_string(),
             seconds: if stamps { seconds.get(k).copied() } else { None },
-            bytes: pass.program.touched,
+            bytes: pass.program.bytes(pass.share),
         };
         let passes = if steps.is_empty() {
             Vec::new()
