@@ -40,10 +40,12 @@ failing() {
     done
     (cd "$copy" && cargo test --locked --no-fail-fast --target-dir ../build "${arguments[@]}" 2>&1) >target/mutants/log
     grep -q '^error\(\[\|: could not compile\)' target/mutants/log && { cat target/mutants/log >&2; return 2; }
-    # Names with their binary, which cargo announces before its tests.
+    # Names from the list at a binary's end, with the binary, which cargo announces before its tests.
     awk '$1 == "Running" { n = split($(NF - 1), part, "/"); sub(/\.rs$/, "", part[n])
-                           binary = part[n] == "main" || part[n] == "lib" ? part[n - 1] : part[n] }
-         $1 == "test" && $NF == "FAILED" { print binary "::" $2 }' target/mutants/log | sort -u
+                           binary = part[n] == "main" ? part[n - 1] : part[n] }
+         $0 == "failures:" { listing = 1; next }
+         listing && /^    [^ ]+$/ { print binary "::" $1; next }
+         { listing = 0 }' target/mutants/log | sort -u
 }
 
 # write_page: every fault of the list, in its order.

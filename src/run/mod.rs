@@ -381,7 +381,8 @@ impl<'a> Run<'a> {
             ratio(window.kinetic, window.strain),
             ratio(window.probe.net_force, window.probe.internal_force),
         ];
-        if self.totals.time < self.motion.settled_after() || self.last_ratios[0] > kinetic_ratio {
+        let at_rest = self.last_ratios[0] <= kinetic_ratio || window.kinetic <= self.rounding_kinetic();
+        if self.totals.time < self.motion.settled_after() || !at_rest {
             return Ok(false);
         }
         Ok(self.last_ratios[1] <= residual || window.probe.net_force <= self.rounding_force()?)
@@ -390,12 +391,11 @@ impl<'a> Run<'a> {
     /// Net force that rounding the positions of this engine leaves [N]: no residual can be asked to be smaller. Twice
     /// what moving every coordinate by half a unit in the last place does, one way or the other; 0 in double precision.
     fn rounding_force(&mut self) -> Result<f64> {
-        if self.engine.info().precision == "f64" {
+        let half_unit = self.half_unit();
+        if half_unit == 0.0 {
             return Ok(0.0);
         }
         let mesh = &self.model.mesh;
-        let reach = |x: &[f64; 3]| (0..3).map(|d| (x[d] - mesh.axle[d]).abs()).fold(0.0, f64::max);
-        let half_unit = 0.5 * f64::from(f32::EPSILON) * mesh.nodes.iter().map(reach).fold(0.0, f64::max);
         let x = self.engine.state()?.x;
         let still = vec![[0.0; 3]; x.len()];
         let mut sign = 1u32;
@@ -410,6 +410,23 @@ impl<'a> Run<'a> {
         let square =
             |n: usize| (0..3).filter(|&d| !held(n, d)).map(|d| (f[n][d] - g[n][d]).powi(2)).sum::<f64>();
         Ok(2.0 * free.map(square).sum::<f64>().sqrt())
+    }
+
+    /// Half a unit in the last place of the engine's positions [m]; 0 in double precision.
+    fn half_unit(&self) -> f64 {
+        if self.engine.info().precision == "f64" {
+            return 0.0;
+        }
+        let mesh = &self.model.mesh;
+        let reach = |x: &[f64; 3]| (0..3).map(|d| (x[d] - mesh.axle[d]).abs()).fold(0.0, f64::max);
+        0.5 * f64::from(f32::EPSILON) * mesh.nodes.iter().map(reach).fold(0.0, f64::max)
+    }
+
+    /// Kinetic energy that rounding the positions keeps up [J]: no relaxation comes to less. Every node at the highest
+    /// frequency, 2 / dt, with an amplitude of half a unit in the last place; 0 in double precision.
+    fn rounding_kinetic(&self) -> f64 {
+        let speed = 2.0 / self.critical.dt * self.half_unit();
+        0.5 * self.model.mass.iter().sum::<f64>() * speed * speed
     }
 
     /// Hands out a snapshot if one is due; whether it was.

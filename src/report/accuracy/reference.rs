@@ -16,6 +16,8 @@ pub struct Reference {
     pub within: f64,
     /// How it was found.
     pub how: String,
+    /// Command, machine and commit that it and the errors against it were measured with.
+    pub from: String,
     /// Contact area [m2].
     pub area: f64,
     /// The finest mesh's displacements.
@@ -37,6 +39,7 @@ impl Reference {
                 value: 0.0,
                 within: 0.0,
                 how,
+                from: String::new(),
                 area: f64::NAN,
                 field: Vec::new(),
             });
@@ -53,7 +56,7 @@ impl Reference {
         let ratio = (chosen[0] as f64 / chosen[1] as f64).powf(FORMAL_ORDER);
         let area = runs[0].area + (runs[0].area - runs[1].area) / (ratio - 1.0);
         let [finest, ..] = <[Run; 3]>::try_from(runs).expect("three meshes were run");
-        Ok(Reference { problem, value, within, how, area, field: finest.field })
+        Ok(Reference { problem, value, within, how, from: String::new(), area, field: finest.field })
     }
 
     /// How well the value is known, relative to it.

@@ -65,9 +65,19 @@ pub struct Row {
 pub struct Measured {
     pub rows: Vec<Row>,
     pub references: Vec<Reference>,
-    /// Command, machine and commit that errors and times were measured with.
-    pub errors_from: String,
+    /// Command, machine and commit that times were measured with.
     pub times_from: String,
+}
+
+impl Measured {
+    /// Takes over what `before` has of other problems, in the order of [`Problem::ALL`].
+    pub fn keep(&mut self, before: Measured) {
+        let anew: Vec<Problem> = self.references.iter().map(|r| r.problem).collect();
+        self.rows.extend(before.rows.into_iter().filter(|r| !anew.contains(&r.problem)));
+        self.references.extend(before.references.into_iter().filter(|r| !anew.contains(&r.problem)));
+        self.rows.sort_by_key(|r| r.problem);
+        self.references.sort_by_key(|r| r.problem);
+    }
 }
 
 /// A run.

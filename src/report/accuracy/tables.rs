@@ -35,14 +35,17 @@ const COLUMNS: [&str; 21] = [
     "reference_from",
 ];
 
-/// Lines before the table: where errors and times were measured.
-const ORIGINS: [&str; 2] = ["# errors: ", "# times: "];
+/// Lines before the table: where errors, by problem, and times were measured.
+const ERRORS: &str = "# errors of ";
+const TIMES: &str = "# times: ";
 
 /// Every measurement, one a line, with what it was measured against.
 pub fn csv(measured: &Measured) -> String {
-    let [errors, times] = ORIGINS;
-    let mut text = format!("{errors}{}\n{times}{}\n", measured.errors_from, measured.times_from);
-    text += &(COLUMNS.join(",") + "\n");
+    let mut text = String::new();
+    for known in &measured.references {
+        text += &format!("{ERRORS}{}: {}\n", known.problem.name(), known.from);
+    }
+    text += &format!("{TIMES}{}\n{}\n", measured.times_from, COLUMNS.join(","));
     for r in &measured.rows {
         let s = &r.setting;
         let reference = measured.references.iter().find(|known| known.problem == r.problem);
@@ -77,21 +80,29 @@ pub fn csv(measured: &Measured) -> String {
 /// # Errors
 /// [`Error::Scene`] naming file and line where it is not such a table.
 pub fn parse(file: &Path, text: &str) -> Result<Measured> {
-    let mut lines = text.lines().enumerate();
-    let mut origin = |start: &str| {
-        let line = lines.next().and_then(|(_, l)| l.strip_prefix(start));
-        line.map(str::to_string).ok_or_else(|| mistake(file, 1, "it does not say where it is from"))
-    };
-    let (errors_from, times_from) = (origin(ORIGINS[0])?, origin(ORIGINS[1])?);
-    let mut measured = Measured { errors_from, times_from, ..Measured::default() };
-    if lines.next().map(|(_, l)| l) != Some(COLUMNS.join(",").as_str()) {
-        return Err(mistake(file, 3, "its columns are not those of accuracy.csv"));
+    let mut measured = Measured::default();
+    let mut origins = HashMap::new();
+    let mut lines = text.lines().enumerate().peekable();
+    while let Some((_, line)) = lines.next_if(|(_, l)| l.starts_with('#')) {
+        if let Some(from) = line.strip_prefix(TIMES) {
+            measured.times_from = from.into();
+        } else if let Some((problem, from)) = line.strip_prefix(ERRORS).and_then(|l| l.split_once(": ")) {
+            origins.insert(problem.to_string(), from.to_string());
+        }
+    }
+    match lines.next() {
+        Some((_, line)) if line == COLUMNS.join(",") => {}
+        other => {
+            let number = other.map_or(1, |(number, _)| number + 1);
+            return Err(mistake(file, number, "its columns are not those of accuracy.csv"));
+        }
     }
     for (number, line) in lines {
         let cells: Vec<&str> = line.split(',').collect();
-        let (row, reference) = parse_row(&cells)
+        let (row, mut reference) = parse_row(&cells)
             .ok_or_else(|| mistake(file, number + 1, "a cell is missing, or is not what its column says"))?;
         if measured.references.iter().all(|known| known.problem != row.problem) {
+            reference.from = origins.remove(row.problem.name()).unwrap_or_default();
             measured.references.push(reference);
         }
         measured.rows.push(row);
@@ -144,6 +155,7 @@ fn parse_row(cells: &[&str]) -> Option<(Row, Reference)> {
         value: number("reference")?,
         within: number("reference_within")?,
         how: cell["reference_from"].replace(';', ","),
+        from: String::new(),
         area: f64::NAN,
         field: Vec::new(),
     };
@@ -299,11 +311,11 @@ mod tests {
             value: -98.0,
             within: 0.49,
             how: "the finest; not monotone (x2, x3, x4)".into(),
+            from: "`a: b`, commit 540bd3d".into(),
             area: f64::NAN,
             field: Vec::new(),
         };
-        let from = |what: &str| format!("{what}, commit 540bd3d");
-        Measured { rows, references: vec![reference], errors_from: from("a"), times_from: from("b") }
+        Measured { rows, references: vec![reference], times_from: "none".into() }
     }
 
     #[test]
@@ -312,6 +324,7 @@ mod tests {
         let read = parse(Path::new("accuracy.csv"), &text).unwrap();
         assert_eq!(csv(&read), text);
         assert_eq!(read.references[0].how, measured().references[0].how);
+        assert_eq!(read.references[0].from, measured().references[0].from);
         let broken = text.replace("slip-5,cpu f32", "slip-5,cpu f16");
         let error = parse(Path::new("accuracy.csv"), &broken).unwrap_err().to_string();
         assert!(error.contains("accuracy.csv") && error.contains(":5:"), "{error}");
