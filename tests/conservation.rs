@@ -218,7 +218,7 @@ fn steps_that_change_keep_free_fall_exact() {
     for n in 1..=20 {
         driver.advance((0..7).map(|k| dt * [1.0, 0.5, 0.75][(n + k) % 3])).unwrap();
         let fallen = -0.5 * 9.81 * driver.time * driver.time;
-        let off = |(x, X): (&Vec3<f64>, &Vec3<f64>)| (x[2] - X[2] - fallen).abs();
+        let off = |(x, start): (&Vec3<f64>, &Vec3<f64>)| (x[2] - start[2] - fallen).abs();
         let worst =
             driver.engine.state().unwrap().x.iter().zip(&model.mesh.nodes).map(off).fold(0.0, f64::max);
         // 140 steps of 1e-16 of 0.02 m each, and forces of rounded positions: 1e-15; a fall of 1e-9 to 1e-6 m.
