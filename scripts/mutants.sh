@@ -5,7 +5,7 @@
 #   scripts/mutants.sh [NAME ...]     default: all
 #
 # Every fault leaves a row in target/mutants/rows, so that the run can be taken in slices; docs/mutants.md is put together
-# from the rows there are.
+# from the rows there are (`scripts/mutants.sh none` does only that).
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -86,7 +86,7 @@ while IFS=$'\t' read -r name file text replacement binaries; do
     [[ -n $tests ]] || unnoticed=$((unnoticed + 1))
     printf '| %s | %s | %s | %s |\n' "$name" "$file" \
         "$(paste -sd, <<<"${tests:-**none**}" | sed 's/,/, /g')" "$commit" | tee "$rows/$name"
-    write_page
 done <"$list"
+write_page
 echo "$unnoticed unnoticed or not planted; $page"
 [[ $unnoticed -eq 0 ]]

@@ -71,9 +71,9 @@ fn judged(levels: &[Level]) -> (f64, f64, String) {
             (value, error, format!("extrapolated, observed order {order:.1}"))
         }
         Convergence::Constant { value, within } => (value, within * value.abs(), "the same on all".into()),
-        Convergence::NotMonotone { finest, spread } => (finest, spread, "the finest; not monotone".into()),
+        Convergence::NotMonotone { finest, spread } => (finest, spread, "the finest, not monotone".into()),
         Convergence::Diverging { finest, spread } => {
-            (finest, spread, "the finest; differences do not shrink".into())
+            (finest, spread, "the finest, differences do not shrink".into())
         }
         Convergence::TooFew => (f64::NAN, f64::NAN, "no finite values".into()),
     }

@@ -310,7 +310,7 @@ mod tests {
             problem: Problem::Slip5,
             value: -98.0,
             within: 0.49,
-            how: "the finest; not monotone (x2, x3, x4)".into(),
+            how: "the finest, not monotone (x2, x3, x4)".into(),
             from: "`a: b`, commit 540bd3d".into(),
             area: f64::NAN,
             field: Vec::new(),
