@@ -25,7 +25,7 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// The finest mesh of the matrix, one between it and the next, and the next: m, ceil(3 m / 4), m / 2. Extrapolated
+    /// The finest mesh of the matrix, one between it and the next, and the next: m, 3 m / 4, m / 2. Extrapolated
     /// where they converge monotonically; otherwise the finest, known no better than the three agree.
     pub(super) fn find(
         problem: Problem,
@@ -45,7 +45,7 @@ impl Reference {
             });
         }
         let last = meshes.iter().copied().max().unwrap_or(1).max(3);
-        let chosen = [last, (3 * last).div_ceil(4), last / 2];
+        let chosen = [last, (3 * last).div_ceil(4).min(last - 1), last / 2];
         let at = |mesh| Setting { machine: Machine::Cpu64, element: Element::Q1p0, mesh, safety: 0.9 };
         let runs = chosen.iter().map(|&m| run(&at(m))).collect::<Result<Vec<Run>>>()?;
         let levels: Vec<Level> =
