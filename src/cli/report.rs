@@ -5,10 +5,10 @@ use std::time::Instant;
 
 use clap::{Args, Subcommand};
 
-use crate::report::accuracy::{self, Matrix, Problem};
+use crate::bench::machine::Machine;
+use crate::report::accuracy::{self, Matrix, Measured, Problem};
 use crate::report::page::{self, Finding};
 use crate::report::{Case, stability, verification};
-use crate::scene::Element;
 use crate::{Error, Result};
 
 pub const HELP: &str = "\
@@ -17,7 +17,9 @@ Nothing is cached: every number is computed now, on this machine, and the page s
 Examples:
   hexroll report verification
   hexroll report verification --only hertz_line --only hertz_point --out -
-  hexroll report verification --everyday";
+  hexroll report verification --everyday
+  hexroll report accuracy --gpu 1               # an hour of one core
+  hexroll report accuracy --retime              # its times again, on a machine that does nothing else: a minute";
 
 #[derive(Debug, Args)]
 pub struct ReportArgs {
@@ -35,27 +37,33 @@ enum Kind {
     Stability(CasesArgs),
 }
 
-/// Which cases, and where the page goes.
 /// What is measured.
 #[derive(Debug, Args)]
 struct AccuracyArgs {
-    /// Problems: static, straight, slip-5, wave; default all
+    /// Problems: static, straight, slip-5, wave; default all. What accuracy.csv has of the others is kept
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
-    /// Finest mesh that is measured, as a multiple of 44 x 4 x 5; the reference takes one more
-    #[arg(long, value_name = "N", default_value_t = 2)]
+    /// Finest mesh, as a multiple of 44 x 4 x 5: 1, 2, 4, ... up to it are measured
+    #[arg(long, value_name = "N", default_value_t = 4)]
     finest: usize,
-    /// Measure the GPU engine too
-    #[arg(long)]
-    gpu: bool,
-    /// Threads of the CPU engine; 0: one a core
+    /// Finest mesh with every safety factor, and errors split into space, step and rounding
+    #[arg(long, value_name = "N", default_value_t = 2)]
+    split: usize,
+    /// Finest mesh that the GPU engine is measured on too; 0: none
     #[arg(long, value_name = "N", default_value_t = 0)]
+    gpu: usize,
+    /// Threads of the CPU engine; 0: one a core
+    #[arg(long, value_name = "N", default_value_t = 1)]
     threads: usize,
+    /// Keep the errors in accuracy.csv, and measure the wall times again
+    #[arg(long)]
+    retime: bool,
     /// Folder for accuracy.md, accuracy.csv and accuracy.png
     #[arg(long, value_name = "DIR", default_value = "docs")]
     out: PathBuf,
 }
 
+/// Which cases, and where the page goes.
 #[derive(Debug, Clone, Args)]
 struct CasesArgs {
     /// Only this case; may be repeated
@@ -154,33 +162,82 @@ fn accuracy(args: &AccuracyArgs) -> Result<()> {
     if let Some(unknown) = args.only.iter().find(|name| !known.contains(&name.as_str())) {
         return Err(no_such("problem", unknown, &known));
     }
-    let wanted = |p: &Problem| args.only.is_empty() || args.only.iter().any(|name| name == p.name());
-    let matrix = Matrix {
-        problems: Problem::ALL.into_iter().filter(wanted).collect(),
-        elements: vec![Element::Q1p0, Element::UniformGradient { hourglass: 0.15 }, Element::Full],
-        meshes: (1..=args.finest.max(1)).collect(),
-        safeties: vec![0.9, 0.45],
-        threads: args.threads,
-        gpu: args.gpu,
+    let table = args.out.join("accuracy.csv");
+    let mut measured = if args.retime {
+        let text = std::fs::read_to_string(&table).map_err(Error::io(&table, "read the errors"))?;
+        accuracy::parse(&table, &text)?
+    } else {
+        let before = match std::fs::read_to_string(&table) {
+            Ok(text) if !args.only.is_empty() => accuracy::parse(&table, &text)?,
+            _ => Measured::default(),
+        };
+        let mut measured = accuracy::measure(&matrix(args), |row| eprintln!("{row}"))?;
+        let from = origin(&measured);
+        measured.references.iter_mut().for_each(|r| r.from.clone_from(&from));
+        measured.keep(before);
+        measured.times_from = "none".into();
+        // Errors are dear: kept before anything else is tried.
+        write(&table, &accuracy::csv(&measured))?;
+        measured
     };
-    let rows = accuracy::measure(&matrix, |row| eprintln!("{row}"))?;
-    let gpu = if args.gpu { " --gpu" } else { "" };
-    let command = format!("hexroll report accuracy --finest {}{gpu} --threads {}", args.finest, args.threads);
-    let intro = "What an error costs. Errors are against double precision extrapolated from the two finest meshes \
-                 (q1p0, second order), or d'Alembert's wave: *discretisation* is what double precision with a third of \
-                 the step leaves, *time step* is what the step adds, *rounding* is what the precision adds. Wall \
-                 time is of the whole run, pressing included, without output. Elastic rolling and 45 degrees do not \
-                 converge with the mesh and are not here.";
-    let body = format!(
-        "![wall time against error](accuracy.png)\n\nThe fastest setting within an error:\n\n{}\n{}",
-        accuracy::advice(&rows),
-        accuracy::markdown(&rows)
-    );
-    write(&args.out.join("accuracy.md"), &page::titled("Speed against error", intro, &command, &body))?;
-    write(&args.out.join("accuracy.csv"), &accuracy::csv(&rows))?;
+    let windows = accuracy::time(&mut measured.rows, args.threads)?;
+    measured.times_from = origin(&measured);
+    write(&table, &accuracy::csv(&measured))?;
+    write(&args.out.join("accuracy.md"), &accuracy_page(&measured, &windows))?;
     let picture = args.out.join("accuracy.png");
     let problem = |e: image::ImageError| Error::Picture { problem: e.to_string() };
-    accuracy::picture(&rows)?.save(&picture).map_err(problem)
+    accuracy::picture(&measured)?.save(&picture).map_err(problem)
+}
+
+fn matrix(args: &AccuracyArgs) -> Matrix {
+    let wanted = |p: &Problem| args.only.is_empty() || args.only.iter().any(|name| name == p.name());
+    let finest = args.finest.max(1);
+    let mut meshes: Vec<usize> = (0..).map(|k| 1 << k).take_while(|m| *m < finest).collect();
+    meshes.push(finest);
+    Matrix {
+        problems: Problem::ALL.into_iter().filter(wanted).collect(),
+        elements: accuracy::ELEMENTS.to_vec(),
+        meshes,
+        safeties: vec![0.9, 0.45],
+        split: args.split,
+        gpu: args.gpu,
+        threads: args.threads,
+    }
+}
+
+/// Command, machine, adapter, commit and day of a measurement that is made now.
+fn origin(measured: &Measured) -> String {
+    let on_gpu = measured.rows.iter().any(|r| r.setting.machine.on_gpu());
+    let report = if on_gpu { crate::gpu::Gpu::open(None).ok().map(|gpu| gpu.report) } else { None };
+    let m = Machine::describe(report.as_ref());
+    let adapter = m.adapter.map_or(String::new(), |a| format!(", {a} ({})", m.driver.unwrap_or_default()));
+    let load = m.load.map_or(String::new(), |l| format!(", load {l:.1} at the end"));
+    format!(
+        "`{}`, {}, {} cores{adapter}, {} build, commit {}, {}{load}",
+        m.command, m.processor, m.cores, m.profile, m.commit, m.date
+    )
+}
+
+fn accuracy_page(measured: &Measured, windows: &[accuracy::Window]) -> String {
+    let intro = "What an error costs. *Discretisation* is what double precision with a third of the step leaves, *time step* \
+                 is what the step adds, *rounding* is what the precision adds (what a cell does not say was not \
+                 measured). Elastic rolling and 45 degrees do not converge with the mesh and are not here. Wall time is \
+                 the time of a step, measured by itself, times the steps of the whole run, pressing included, with the \
+                 force passes that find the critical step, without output.";
+    let errors: String = (measured.references.iter())
+        .map(|r| format!("- errors of {}: {}\n", r.problem.name(), r.from))
+        .collect();
+    format!(
+        "# Speed against error\n\n{intro}\n\n{errors}- times: {}\n\n![wall time against error](accuracy.png)\n\n\
+         ## What errors are against\n\n{}\n## The fastest setting within an error\n\nThe reference's own error counts.\n\n{}\n\
+         ## What output windows cost\n\nStraight run, x1, cpu f64, q1p0. Forces are impulses over a window, from every \
+         step: the mean does not depend on it.\n\n{}{}",
+        measured.times_from,
+        accuracy::references(measured),
+        accuracy::advice(measured),
+        accuracy::windows(windows),
+        accuracy::markdown(&measured.rows)
+    )
 }
 
 fn no_such(what: &str, given: &str, known: &[&str]) -> Error {

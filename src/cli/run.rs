@@ -152,6 +152,7 @@ impl Report<'_> {
             element_updates_per_s: updates / computing,
             balance: WorstBalance::of(&recorder.history),
             stored_balance: WorstBalance::of_stored(&recorder.history),
+            errors: totals.estimate.into(),
             // + 0.0: no road was pierced is 0, not -0.
             worst_penetration_m: scene.road.map(|_| -totals.ledger.worst_gap + 0.0),
             finished: error.is_none(),

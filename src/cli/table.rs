@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::format::{count, duration, si, updates};
-use crate::output::summary::{StageMeans, WorstBalance};
+use crate::output::summary::{Errors, StageMeans, WorstBalance};
 use crate::output::{ContactScatter, Rolling, Summary, Verdict};
 
 /// The table; `files` says what else is in the folder `out`.
@@ -41,12 +41,28 @@ fn lines(s: &Summary) -> Vec<(&'static str, String)> {
             ),
         ),
         ("wall time", format!("{}, {}", duration(s.wall_time_s), updates(s.element_updates_per_s))),
+        ("errors", errors(&s.errors)),
         ("balance", format!("by work done {}", balance(&s.balance))),
         ("", format!("by stored energy {}", balance(&s.stored_balance))),
     ];
     let depth = s.worst_penetration_m.map(|d| format!("at most {} at the ends of windows", si(d, "m")));
     lines.extend(depth.map(|d| ("penetration", d)));
     lines
+}
+
+/// Classes of error, of a power of ten each.
+fn errors(e: &Errors) -> String {
+    let class = |name: &str, v: Option<f64>| {
+        let power = v.filter(|v| *v > 0.0)?.log10().ceil();
+        Some(format!("{name} 1e{power:.0}"))
+    };
+    let kinds =
+        [class("time step", e.time_step), class("rounding", e.rounding), class("residual", e.residual)];
+    let named: Vec<String> = kinds.into_iter().flatten().collect();
+    match named.is_empty() {
+        true => "not estimated".into(),
+        false => format!("of forces, estimated, at most about: {}", named.join(", ")),
+    }
 }
 
 /// Means of every stage, a line each.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use super::stages::{self, Span};
 use super::{ContactScatter, Rolling};
 use crate::record::Sample;
-use crate::run::Totals;
+use crate::run::{Estimate, Totals};
 use crate::scene::{Method, Scene, Stage};
 
 /// A run in numbers. Seconds, joules and newtons are in the names.
@@ -44,6 +44,9 @@ pub struct Summary {
     /// Energy balance by accumulated work, and by stored energy.
     pub balance: WorstBalance,
     pub stored_balance: WorstBalance,
+    /// Classes of the run's own errors in time and rounding, estimated.
+    #[serde(default)]
+    pub errors: Errors,
     /// Deepest surface node below the road at any sample [m], 0 if none was; none without a road.
     pub worst_penetration_m: Option<f64>,
     /// Whether every stage ran to its end.
@@ -51,6 +54,24 @@ pub struct Summary {
     pub stages: Vec<StageMeans>,
     pub versions: Versions,
     pub warnings: Vec<String>,
+}
+
+/// Estimated classes of error, relative to forces and deformation ([`crate::run::estimate`] says how); none where a kind
+/// does not arise or is not estimated.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Errors {
+    /// What the length of the step does.
+    pub time_step: Option<f64>,
+    /// What the precision does.
+    pub rounding: Option<f64>,
+    /// Net over internal force that a relaxed stage ended with.
+    pub residual: Option<f64>,
+}
+
+impl From<Estimate> for Errors {
+    fn from(Estimate { time_step, rounding, residual }: Estimate) -> Errors {
+        Errors { time_step, rounding, residual }
+    }
 }
 
 /// The worst sample of an energy balance.

@@ -1,6 +1,7 @@
 //! The loop over an [`Engine`]: stages, windows, steps; histories, fields and the critical step on the way.
 
 mod chatter;
+pub mod estimate;
 mod fields;
 mod implicit;
 mod lanczos;
@@ -8,6 +9,7 @@ mod ledger;
 mod motion;
 pub mod stability;
 
+pub use estimate::Estimate;
 pub use implicit::ImplicitCounts;
 pub use ledger::{Ledger, road_axes};
 pub use motion::Motion;
@@ -77,6 +79,8 @@ pub struct Totals {
     pub noise: Vec<Option<ContactNoise>>,
     /// Free-rolling radius that the last longitudinal slip was related to, or that was measured since [m].
     pub free_radius: Option<f64>,
+    /// Classes of its own errors, as the last stage that has ended leaves them.
+    pub estimate: Estimate,
     /// Whether an observer ended it.
     pub interrupted: bool,
 }
@@ -94,6 +98,7 @@ pub fn run(
         run.stage(stage)?;
         run.totals.noise.push(run.chatter.noise());
         run.measure_free_radius(stage);
+        run.totals.estimate = run.estimate(stage)?;
         if run.totals.interrupted {
             break;
         }
@@ -282,6 +287,24 @@ impl<'a> Run<'a> {
         Ok(stage)
     }
 
+    /// Classes of the run's errors after a stage.
+    fn estimate(&mut self, stage: &Stage) -> Result<Estimate> {
+        if let Method::Implicit(_) = stage.method {
+            return Ok(Estimate::default());
+        }
+        let precision = self.engine.info().precision;
+        let x = self.engine.state()?.x;
+        let rounding = estimate::rounding(self.model, &precision, &x, self.totals.steps);
+        if let Method::QuasiStatic { .. } = stage.method {
+            return Ok(Estimate { rounding, residual: Some(self.last_ratios[1]), time_step: None });
+        }
+        let ledger = &self.totals.ledger;
+        let stored =
+            if ledger.largest_term > 0.0 { ledger.worst_stored_balance / ledger.largest_term } else { 0.0 };
+        let changing = self.chatter.noise().map_or(0.0, |noise| noise.changing_share);
+        Ok(Estimate { rounding, residual: None, time_step: Some(estimate::time_step(stored, changing)) })
+    }
+
     /// Keeps the free-rolling radius of a stage whose rim has spun freely without a moment.
     fn measure_free_radius(&mut self, stage: &Stage) {
         let speed = stage.heading_speed(self.scene.road.as_ref(), self.rim[STEER]);
@@ -377,25 +400,37 @@ impl<'a> Run<'a> {
     fn has_settled(&mut self, stage: &Stage, window: &Window) -> Result<bool> {
         let Method::QuasiStatic { kinetic_ratio, residual } = stage.method else { return Ok(false) };
         let ratio = |a: f64, b: f64| if b > 0.0 { a / b } else { f64::INFINITY };
+        let before = self.last_ratios[1];
         self.last_ratios = [
             ratio(window.kinetic, window.strain),
             ratio(window.probe.net_force, window.probe.internal_force),
         ];
-        if self.totals.time < self.motion.settled_after() || self.last_ratios[0] > kinetic_ratio {
+        let at_rest = self.last_ratios[0] <= kinetic_ratio || window.kinetic <= self.rounding_kinetic(stage);
+        if self.totals.time < self.motion.settled_after() || !at_rest {
             return Ok(false);
         }
-        Ok(self.last_ratios[1] <= residual || window.probe.net_force <= self.rounding_force()?)
+        // Where rounding leaves more than is asked for, it is over when the net force has stopped falling.
+        let stopped = self.last_ratios[1] > 0.8 * before;
+        let left = |run: &mut Self| -> Result<bool> {
+            Ok(window.probe.net_force <= run.rounding_amplitude(stage) * run.rounding_force()?)
+        };
+        Ok(self.last_ratios[1] <= residual || stopped && left(self)?)
+    }
+
+    /// Amplitude, over half a unit in the last place, at which mass damping holds the oscillation that rounding drives: each
+    /// step adds a third of the unit's square and damping takes its share alpha dt away.
+    fn rounding_amplitude(&self, stage: &Stage) -> f64 {
+        (1.0 / (3.0 * stage.mass_damping * self.dt_before)).sqrt().max(1.0)
     }
 
     /// Net force that rounding the positions of this engine leaves [N]: no residual can be asked to be smaller. Twice
     /// what moving every coordinate by half a unit in the last place does, one way or the other; 0 in double precision.
     fn rounding_force(&mut self) -> Result<f64> {
-        if self.engine.info().precision == "f64" {
+        let half_unit = self.half_unit();
+        if half_unit == 0.0 {
             return Ok(0.0);
         }
         let mesh = &self.model.mesh;
-        let reach = |x: &[f64; 3]| (0..3).map(|d| (x[d] - mesh.axle[d]).abs()).fold(0.0, f64::max);
-        let half_unit = 0.5 * f64::from(f32::EPSILON) * mesh.nodes.iter().map(reach).fold(0.0, f64::max);
         let x = self.engine.state()?.x;
         let still = vec![[0.0; 3]; x.len()];
         let mut sign = 1u32;
@@ -410,6 +445,23 @@ impl<'a> Run<'a> {
         let square =
             |n: usize| (0..3).filter(|&d| !held(n, d)).map(|d| (f[n][d] - g[n][d]).powi(2)).sum::<f64>();
         Ok(2.0 * free.map(square).sum::<f64>().sqrt())
+    }
+
+    /// Half a unit in the last place of the engine's positions [m]; 0 in double precision.
+    fn half_unit(&self) -> f64 {
+        if self.engine.info().precision == "f64" {
+            return 0.0;
+        }
+        let mesh = &self.model.mesh;
+        let reach = |x: &[f64; 3]| (0..3).map(|d| (x[d] - mesh.axle[d]).abs()).fold(0.0, f64::max);
+        0.5 * f64::from(f32::EPSILON) * mesh.nodes.iter().map(reach).fold(0.0, f64::max)
+    }
+
+    /// Kinetic energy that rounding the positions keeps up [J]: no relaxation comes to less. Every node at the highest
+    /// frequency, 2 / dt, with the amplitude that rounding keeps up; 0 in double precision.
+    fn rounding_kinetic(&self, stage: &Stage) -> f64 {
+        let speed = 2.0 / self.critical.dt * self.half_unit() * self.rounding_amplitude(stage);
+        0.5 * self.model.mass.iter().sum::<f64>() * speed * speed
     }
 
     /// Hands out a snapshot if one is due; whether it was.

@@ -52,6 +52,8 @@ cases! { assert_claims:
     an_element_inside_out_is_refused: "inside_out";
     similar_wheels_have_similar_forces: "similarity";
     a_wheel_at_one_kilometre: "far_away";
+    sliding_wheels_have_the_steps_energy_error: "sliding_energy";
+    elastic_rolling_is_named_as_chattering: "chatter";
     #[ignore = "a million steps: make verify"]
     a_million_steps: "million_steps";
 }

@@ -45,6 +45,9 @@ pages! {
     a_pressed_cylinder_is_hertzs: "hertz_line";
     #[ignore = "long: make verify"]
     a_pressed_ball_is_hertzs: "hertz_point";
+    a_pressed_cylinder_pushed_sideways_slips_at_its_edges: "cattaneo_mindlin";
+    #[ignore = "long: make verify"]
+    a_rolling_cylinder_creeps_as_carter_says: "carter";
     a_slider_follows_its_equation_of_motion: "slider";
     a_block_slides_down_a_slope: "slope";
     #[ignore = "long: make verify"]

@@ -28,6 +28,11 @@ impl Problem {
         }
     }
 
+    /// The problem with this name.
+    pub fn named(name: &str) -> Option<Problem> {
+        Problem::ALL.into_iter().find(|p| p.name() == name)
+    }
+
     /// What the error is an error of.
     pub fn quantity(self) -> &'static str {
         match self {
@@ -49,6 +54,17 @@ pub enum Machine {
 }
 
 impl Machine {
+    pub const ALL: [Machine; 4] = [Machine::Cpu64, Machine::Cpu32, Machine::Gpu32, Machine::GpuPairs];
+
+    pub fn on_gpu(self) -> bool {
+        matches!(self, Machine::Gpu32 | Machine::GpuPairs)
+    }
+
+    /// The engine with this name.
+    pub fn named(name: &str) -> Option<Machine> {
+        Machine::ALL.into_iter().find(|m| m.name() == name)
+    }
+
     pub fn name(self) -> &'static str {
         match self {
             Machine::Cpu64 => "cpu f64",
@@ -77,6 +93,10 @@ pub fn element_name(element: Element) -> &'static str {
         Element::UniformGradient { .. } => "uniform-gradient",
     }
 }
+
+/// Formulations that are measured; the hourglass stiffness is the default one.
+pub const ELEMENTS: [Element; 3] =
+    [Element::Q1p0, Element::UniformGradient { hourglass: 0.15 }, Element::Full];
 
 /// Duration of the rolling stage, and the part at its end that is averaged [s].
 pub const ROLL: f64 = 0.05;

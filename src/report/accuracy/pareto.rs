@@ -3,7 +3,8 @@
 use image::{Rgba, RgbaImage};
 
 use super::cases::{Machine, Problem};
-use super::runs::Row;
+use super::reference::Reference;
+use super::runs::{Measured, Row};
 use crate::Result;
 use crate::render::canvas::{Anchor, Canvas, Fonts, Weight};
 use crate::scene::Element;
@@ -12,6 +13,7 @@ const PANEL: [f64; 2] = [560.0, 430.0];
 const HEAD: f64 = 84.0;
 const INK: [u8; 3] = [40, 44, 52];
 const PALE: [u8; 3] = [222, 225, 230];
+const UNKNOWN: [u8; 3] = [244, 240, 230];
 
 fn colour(element: Element) -> [u8; 3] {
     match element {
@@ -25,7 +27,8 @@ fn colour(element: Element) -> [u8; 3] {
 ///
 /// # Errors
 /// [`Error::Picture`](crate::Error::Picture) if the canvas cannot be made.
-pub fn picture(rows: &[Row]) -> Result<RgbaImage> {
+pub fn picture(measured: &Measured) -> Result<RgbaImage> {
+    let rows = &measured.rows;
     let shown: Vec<Problem> =
         Problem::ALL.into_iter().filter(|p| rows.iter().any(|r| r.problem == *p)).collect();
     let columns = shown.len().clamp(1, 2);
@@ -38,7 +41,9 @@ pub fn picture(rows: &[Row]) -> Result<RgbaImage> {
     for (k, problem) in shown.into_iter().enumerate() {
         let corner = [(k % columns) as f64 * PANEL[0], HEAD + (k / columns) as f64 * PANEL[1]];
         let own: Vec<&Row> = rows.iter().filter(|r| r.problem == problem && r.error > 0.0).collect();
-        Panel::new(corner, &own).draw(&mut canvas, problem, &own);
+        let reference = measured.references.iter().find(|known| known.problem == problem);
+        let within = reference.map_or(0.0, Reference::uncertainty);
+        Panel::new(corner, &own, within).draw(&mut canvas, problem, &own);
     }
     canvas.finish()
 }
@@ -63,6 +68,19 @@ fn legend(canvas: &mut Canvas) {
     }
     canvas.line(&[[x, 58.0], [x + 24.0, 58.0]], 1.5, INK, Some([4.0, 3.0]));
     canvas.text("fastest for its error", [x + 32.0, 58.0], Anchor::Left, Weight::Regular, 14.0, INK, 0.0);
+    x += 32.0 + 8.0 * 22.0;
+    let box_at =
+        |r: [f64; 2]| [[x, 58.0 - r[1]], [x + r[0], 58.0 - r[1]], [x + r[0], 58.0 + r[1]], [x, 58.0 + r[1]]];
+    canvas.polygon(&box_at([24.0, 7.0]), UNKNOWN, None);
+    canvas.text(
+        "within the reference's own error",
+        [x + 32.0, 58.0],
+        Anchor::Left,
+        Weight::Regular,
+        14.0,
+        INK,
+        0.0,
+    );
 }
 
 /// f64 discs, f32 rings, GPU squares (pairs: open ones).
@@ -81,17 +99,19 @@ struct Panel {
     corner: [f64; 2],
     x: [f64; 2],
     y: [f64; 2],
+    /// How well the reference is known: smaller errors say nothing.
+    within: f64,
 }
 
 impl Panel {
-    fn new(corner: [f64; 2], rows: &[&Row]) -> Panel {
+    fn new(corner: [f64; 2], rows: &[&Row], within: f64) -> Panel {
         let decades = |f: fn(&Row) -> f64| {
             let logs = || rows.iter().map(|r| f(r).log10());
             let low = logs().fold(f64::INFINITY, f64::min).floor();
             let high = logs().fold(f64::NEG_INFINITY, f64::max).ceil();
             if low.is_finite() && high > low { [low, high] } else { [-1.0, 0.0] }
         };
-        Panel { corner, x: decades(|r| r.wall), y: decades(|r| r.error) }
+        Panel { corner, x: decades(|r| r.wall), y: decades(|r| r.error), within }
     }
 
     fn at(&self, wall: f64, error: f64) -> [f64; 2] {
@@ -107,6 +127,13 @@ impl Panel {
         let [left, top] = self.corner;
         canvas.text(&title, [left + 76.0, top + 18.0], Anchor::Left, Weight::Medium, 15.0, INK, 0.0);
         let power = |k: f64| 10.0f64.powf(k);
+        let floor = power(self.y[0]);
+        if self.within > floor {
+            let [low, high] = self.x.map(power);
+            let top = self.within.min(power(self.y[1]));
+            let corners = [(low, floor), (high, floor), (high, top), (low, top)];
+            canvas.polygon(&corners.map(|(wall, error)| self.at(wall, error)), UNKNOWN, None);
+        }
         let mut k = self.x[0];
         while k <= self.x[1] {
             let [low, high] = [power(self.y[0]), power(self.y[1])].map(|e| self.at(power(k), e));

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::time::Instant;
 
 use super::cases::{MEAN, Machine, Problem, Setting, element_name, scene};
+use super::reference::Reference;
 use crate::cpu::{self, Precision};
 use crate::engine::{Engine, Step};
 use crate::gpu::{Gpu, GpuEngine};
@@ -19,12 +20,15 @@ use crate::{Error, Result};
 pub struct Matrix {
     pub problems: Vec<Problem>,
     pub elements: Vec<Element>,
-    /// Refinements that are measured, ascending; the reference takes one more.
+    /// Refinements, ascending.
     pub meshes: Vec<usize>,
     pub safeties: Vec<f64>,
+    /// Finest refinement with every safety factor, and with the short steps that split an error; beyond it the first safety
+    /// factor alone.
+    pub split: usize,
+    /// Finest refinement that the GPU engine is measured on, with the first safety factor; 0: none.
+    pub gpu: usize,
     pub threads: usize,
-    /// Whether the GPU engine is measured too.
-    pub gpu: bool,
 }
 
 /// A measurement.
@@ -34,79 +38,107 @@ pub struct Row {
     pub setting: Setting,
     pub elements: usize,
     pub steps: u64,
+    /// Pairs of force passes that the critical step took.
+    pub eigenvalue: u64,
+    /// Of the run [s], on a machine that does nothing else; NaN until timed.
     pub wall: f64,
+    /// Element-updates a second of its steps; NaN until timed.
     pub updates_per_s: f64,
     /// Force [N], or for the wave its rms error.
     pub value: f64,
     /// Over the reference value.
     pub error: f64,
+    /// The parts of the error; NaN where no run with short steps was made.
     pub discretisation: f64,
     pub time_step: f64,
     pub rounding: f64,
     /// Contact area over the reference's, less one; NaN without contact.
     pub area: f64,
-    /// Displacement from the rim's rigid motion against the reference mesh's, relative L2 over common nodes.
+    /// Displacement from the rim's rigid motion against the finest mesh's, relative L2 over common nodes; NaN without one.
     pub displacement: f64,
     /// Stored-energy balance over the largest term.
     pub balance: f64,
 }
 
+/// Rows, and what their errors are against.
+#[derive(Debug, Clone, Default)]
+pub struct Measured {
+    pub rows: Vec<Row>,
+    pub references: Vec<Reference>,
+    /// Command, machine and commit that times were measured with.
+    pub times_from: String,
+}
+
+impl Measured {
+    /// Takes over what `before` has of other problems, in the order of [`Problem::ALL`].
+    pub fn keep(&mut self, before: Measured) {
+        let anew: Vec<Problem> = self.references.iter().map(|r| r.problem).collect();
+        self.rows.extend(before.rows.into_iter().filter(|r| !anew.contains(&r.problem)));
+        self.references.extend(before.references.into_iter().filter(|r| !anew.contains(&r.problem)));
+        self.rows.sort_by_key(|r| r.problem);
+        self.references.sort_by_key(|r| r.problem);
+    }
+}
+
 /// A run.
 #[derive(Debug, Clone, Default)]
-struct Run {
-    value: f64,
-    area: f64,
-    balance: f64,
-    steps: u64,
-    elements: usize,
-    wall: f64,
+pub(super) struct Run {
+    pub value: f64,
+    pub area: f64,
+    pub balance: f64,
+    pub steps: u64,
+    pub eigenvalue: u64,
+    pub elements: usize,
     /// Reference positions and displacements from the rigid motion.
-    field: Vec<([f64; 3], [f64; 3])>,
+    pub field: Field,
 }
+
+/// Positions in the reference shape, and displacements.
+pub(super) type Field = Vec<([f64; 3], [f64; 3])>;
 
 /// Double precision's step for errors of space alone, as a share of the critical one.
 const SHORT: f64 = 0.3;
+/// Output window of the runs [s].
+const WINDOW: f64 = 1e-3;
 
-/// Measures the matrix; `done` hears of every row.
+/// Measures the errors of the matrix; `done` hears of every row.
 ///
 /// # Errors
 /// A run that fails, or no adapter where the GPU is asked for.
-pub fn measure(matrix: &Matrix, mut done: impl FnMut(&Row)) -> Result<Vec<Row>> {
-    let gpu = if matrix.gpu { Some(Gpu::open(None)?) } else { None };
-    let mut rows = Vec::new();
+pub fn measure(matrix: &Matrix, mut done: impl FnMut(&Row)) -> Result<Measured> {
+    let gpu = if matrix.gpu > 0 { Some(Gpu::open(None)?) } else { None };
+    let mut measured = Measured::default();
     for &problem in &matrix.problems {
         let mut known = Known { matrix, gpu: gpu.as_ref(), problem, runs: HashMap::new() };
-        let reference = known.reference()?;
-        for setting in settings(matrix) {
+        let reference = Reference::find(problem, &matrix.meshes, |setting| known.run(setting))?;
+        for setting in matrix.settings() {
             let row = known.row(&setting, &reference)?;
             done(&row);
-            rows.push(row);
+            measured.rows.push(row);
         }
+        measured.references.push(reference);
     }
-    Ok(rows)
+    Ok(measured)
 }
 
-fn settings(matrix: &Matrix) -> Vec<Setting> {
-    let mut machines = vec![Machine::Cpu64, Machine::Cpu32];
-    if matrix.gpu {
-        machines.extend([Machine::Gpu32, Machine::GpuPairs]);
-    }
-    let mut all = Vec::new();
-    for &mesh in &matrix.meshes {
-        for &element in &matrix.elements {
-            for &machine in &machines {
-                all.extend(matrix.safeties.iter().map(|&safety| Setting { machine, element, mesh, safety }));
+impl Matrix {
+    fn settings(&self) -> Vec<Setting> {
+        let mut all = Vec::new();
+        for &mesh in &self.meshes {
+            for &element in &self.elements {
+                for machine in Machine::ALL {
+                    let safeties = match machine.on_gpu() {
+                        true if mesh > self.gpu => &[],
+                        true => &self.safeties[..1],
+                        false if mesh > self.split => &self.safeties[..1],
+                        false => &self.safeties[..],
+                    };
+                    all.extend(safeties.iter().map(|&safety| Setting { machine, element, mesh, safety }));
+                }
             }
         }
+        all
     }
-    all
-}
-
-/// What errors are against.
-struct Reference {
-    value: f64,
-    area: f64,
-    field: Vec<([f64; 3], [f64; 3])>,
 }
 
 struct Known<'a> {
@@ -124,34 +156,20 @@ impl Known<'_> {
             return Ok(run.clone());
         }
         let run = match self.problem {
-            Problem::Wave => wave(setting, self.matrix.threads, self.gpu)?,
-            problem => rolled(problem, setting, self.matrix.threads, self.gpu)?,
+            Problem::Wave => wave(setting, self.matrix.threads, self.gpu)?.0,
+            problem => rolled(problem, setting, WINDOW, self.matrix.threads, self.gpu)?,
         };
         self.runs.insert(key, run.clone());
         Ok(run)
     }
 
-    /// Second-order extrapolation of double precision from the two finest meshes, one finer than those measured.
-    fn reference(&mut self) -> Result<Reference> {
-        if self.problem == Problem::Wave {
-            return Ok(Reference { value: 0.0, area: f64::NAN, field: Vec::new() });
-        }
-        let last = self.matrix.meshes.iter().copied().max().unwrap_or(1);
-        let at = |mesh| Setting { machine: Machine::Cpu64, element: Element::Q1p0, mesh, safety: 0.9 };
-        let (coarse, fine) = (self.run(&at(last))?, self.run(&at(last + 1))?);
-        let ratio = ((last + 1) as f64 / last as f64).powi(2);
-        let limit = |c: f64, f: f64| f + (f - c) / (ratio - 1.0);
-        Ok(Reference {
-            value: limit(coarse.value, fine.value),
-            area: limit(coarse.area, fine.area),
-            field: fine.field,
-        })
-    }
-
     fn row(&mut self, setting: &Setting, reference: &Reference) -> Result<Row> {
         let run = self.run(setting)?;
         let double = self.run(&Setting { machine: Machine::Cpu64, ..*setting })?;
-        let short = self.run(&Setting { machine: Machine::Cpu64, safety: SHORT, ..*setting })?;
+        let short = match setting.mesh <= self.matrix.split {
+            true => self.run(&Setting { machine: Machine::Cpu64, safety: SHORT, ..*setting })?.value,
+            false => f64::NAN,
+        };
         // The wave's value is its error already.
         let scale = if self.problem == Problem::Wave { 1.0 } else { reference.value.abs() };
         let off = |a: f64, b: f64| (a - b).abs() / scale;
@@ -160,13 +178,14 @@ impl Known<'_> {
             setting: *setting,
             elements: run.elements,
             steps: run.steps,
-            wall: run.wall,
-            updates_per_s: run.steps as f64 * run.elements as f64 / run.wall,
+            eigenvalue: run.eigenvalue,
+            wall: f64::NAN,
+            updates_per_s: f64::NAN,
             value: run.value,
             error: off(run.value, reference.value),
-            discretisation: off(short.value, reference.value),
-            time_step: off(double.value, short.value),
-            rounding: off(run.value, double.value),
+            discretisation: off(short, reference.value),
+            time_step: off(double.value, short),
+            rounding: if setting.machine == Machine::Cpu64 { f64::NAN } else { off(run.value, double.value) },
             area: run.area / reference.area - 1.0,
             displacement: difference(&run.field, &reference.field),
             balance: run.balance,
@@ -175,7 +194,7 @@ impl Known<'_> {
 }
 
 /// Relative L2 difference over the nodes that both have.
-fn difference(a: &[([f64; 3], [f64; 3])], b: &[([f64; 3], [f64; 3])]) -> f64 {
+fn difference(a: &Field, b: &Field) -> f64 {
     // Positions on a grid of 0.1 um.
     let key = |x: &[f64; 3]| x.map(|c| (c * 1e7).round() as i64);
     let there: HashMap<[i64; 3], [f64; 3]> = b.iter().map(|(x, u)| (key(x), *u)).collect();
@@ -185,10 +204,11 @@ fn difference(a: &[([f64; 3], [f64; 3])], b: &[([f64; 3], [f64; 3])]) -> f64 {
         off += (0..3).map(|d| (u[d] - v[d]).powi(2)).sum::<f64>();
         all += v.iter().map(|c| c * c).sum::<f64>();
     }
-    (off / all).sqrt()
+    // The reference's own run is off by nothing.
+    if off > 0.0 { (off / all).sqrt() } else { f64::NAN }
 }
 
-fn engine<'a>(
+pub(super) fn engine<'a>(
     setting: &Setting,
     model: &Model,
     scene: &Scene,
@@ -221,14 +241,20 @@ impl Observer for Recorder {
     }
 }
 
-fn rolled(problem: Problem, setting: &Setting, threads: usize, gpu: Option<&Gpu>) -> Result<Run> {
-    let scene = scene(problem, setting);
+/// Runs the problem's wheel with output windows of `sample` [s].
+pub(super) fn rolled(
+    problem: Problem,
+    setting: &Setting,
+    sample: f64,
+    threads: usize,
+    gpu: Option<&Gpu>,
+) -> Result<Run> {
+    let mut scene = scene(problem, setting);
+    scene.output.sample = sample;
     let model = Model::new(&scene)?;
     let mut engine = engine(setting, &model, &scene, threads, gpu)?;
     let mut recorder = Recorder::default();
-    let start = Instant::now();
     let totals = run::run(&scene, &model, &mut *engine, &mut recorder)?;
-    let wall = start.elapsed().as_secs_f64();
     let rows = &recorder.0;
     let count = if problem == Problem::Static { 1 } else { (MEAN / scene.output.sample).round() as usize };
     let mean = |f: fn(&Sample) -> f64| rows[rows.len() - count..].iter().map(f).sum::<f64>() / count as f64;
@@ -243,14 +269,14 @@ fn rolled(problem: Problem, setting: &Setting, threads: usize, gpu: Option<&Gpu>
         area: mean(|s| s.contact_area_m2),
         balance: totals.ledger.worst_stored_balance / totals.ledger.largest_term,
         steps: totals.steps,
+        eigenvalue: totals.lanczos_iterations as u64,
         elements: model.element_count(),
-        wall,
         field,
     })
 }
 
 /// Displacements from the rim's rigid motion, turned back with it.
-fn displacements(model: &Model, snapshot: &Snapshot) -> Vec<([f64; 3], [f64; 3])> {
+fn displacements(model: &Model, snapshot: &Snapshot) -> Field {
     let (axle, rotation) = snapshot.axle.unwrap_or((model.mesh.axle, [[0.0; 3]; 3]));
     let rest = model.mesh.axle;
     let turned = |x: &[f64; 3], X: &[f64; 3]| {
@@ -261,8 +287,9 @@ fn displacements(model: &Model, snapshot: &Snapshot) -> Vec<([f64; 3], [f64; 3])
     snapshot.x.iter().zip(&model.mesh.nodes).map(|(x, X)| turned(x, X)).collect()
 }
 
-/// A pulse in a bar of 1 m, 8 x 8 elements across, sides held, against d'Alembert's displacement.
-fn wave(setting: &Setting, threads: usize, gpu: Option<&Gpu>) -> Result<Run> {
+/// A pulse in a bar of 1 m, 8 x 8 elements across, sides held, against d'Alembert's displacement; and the wall time of its
+/// steps [s].
+pub(super) fn wave(setting: &Setting, threads: usize, gpu: Option<&Gpu>) -> Result<(Run, f64)> {
     const PULSE: f64 = 0.4;
     const WAY: f64 = 0.2;
     // Strain: linear, yet far above the rounding of single-precision positions.
@@ -286,8 +313,8 @@ fn wave(setting: &Setting, threads: usize, gpu: Option<&Gpu>) -> Result<Run> {
     engine.set_velocity(&v, &[0.0; 6])?;
     let x = model.mesh.nodes.clone();
     let guess = stability::element_bound(&model)?;
-    let critical = stability::assembled(&mut *engine, &model, &x, guess, None)?.dt;
-    let count = (WAY / c / (setting.safety * critical)).ceil() as usize;
+    let critical = stability::assembled(&mut *engine, &model, &x, guess, None)?;
+    let count = (WAY / c / (setting.safety * critical.dt)).ceil() as usize;
     let dt = WAY / c / count as f64;
     let steps: Vec<Step> = (0..count)
         .map(|k| Step {
@@ -312,28 +339,22 @@ fn wave(setting: &Setting, threads: usize, gpu: Option<&Gpu>) -> Result<Run> {
         off += (x[0] - X[0] - expected).powi(2);
         all += expected * expected;
     }
-    Ok(Run {
+    let run = Run {
         value: (off / all).sqrt(),
         area: f64::NAN,
         balance: f64::NAN,
         steps: count as u64,
+        eigenvalue: critical.iterations as u64,
         elements: model.element_count(),
-        wall,
         field: Vec::new(),
-    })
+    };
+    Ok((run, wall))
 }
 
 impl std::fmt::Display for Row {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         let Setting { machine, element, mesh, safety } = self.setting;
-        write!(
-            f,
-            "{:9} {:9} {:17} x{mesh} safety {safety}: {:.3} s, error {:.2e}",
-            self.problem.name(),
-            machine.name(),
-            element_name(element),
-            self.wall,
-            self.error
-        )
+        let (problem, machine, element) = (self.problem.name(), machine.name(), element_name(element));
+        write!(f, "{problem:9} {machine:9} {element:17} x{mesh} safety {safety}: error {:.2e}", self.error)
     }
 }

@@ -3,6 +3,7 @@
 
 mod limits;
 mod scales;
+mod sliding;
 mod steps;
 
 pub use limits::{HARD, Hard, Limit, find};
@@ -10,4 +11,12 @@ pub use limits::{HARD, Hard, Limit, find};
 use super::Case;
 
 /// Cases with claims of their own; [`HARD`] are those whose limit is searched.
-pub const CASES: &[Case] = &[steps::SHARP, steps::REFUSED, scales::SIMILAR, scales::FAR, scales::LONG];
+pub const CASES: &[Case] = &[
+    steps::SHARP,
+    steps::REFUSED,
+    scales::SIMILAR,
+    scales::FAR,
+    sliding::CASE,
+    scales::CHATTER,
+    scales::LONG,
+];

@@ -3,6 +3,8 @@
 mod bar_impact;
 mod bonded_strip;
 mod brush;
+mod carter;
+mod cattaneo;
 mod constitutive;
 mod cylinder;
 mod hertz_line;
@@ -26,6 +28,8 @@ pub const CASES: &[Case] = &[
     bar_impact::CASE,
     hertz_line::CASE,
     hertz_point::CASE,
+    cattaneo::CASE,
+    carter::CASE,
     slider::CASE,
     slope::CASE,
     brush::CASE,

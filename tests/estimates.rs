@@ -1,0 +1,109 @@
+//! What a run says of its own errors (`summary.json`, `errors`), against runs with other steps and in other precisions.
+
+mod common;
+
+use common::wheel;
+use hexroll::cpu::{self, Precision};
+use hexroll::model::Model;
+use hexroll::record::{Sample, Snapshot};
+use hexroll::run::{self, Observer, Progress, Totals};
+use hexroll::scene::{Drive, InitialVelocity, Method, RimMotion, Scene, Snapshots, Stage};
+
+#[derive(Default)]
+struct Rows(Vec<Sample>);
+
+impl Observer for Rows {
+    fn sample(&mut self, sample: &Sample, _: &Progress) -> hexroll::Result<()> {
+        self.0.push(sample.clone());
+        Ok(())
+    }
+    fn snapshot(&mut self, _: &Snapshot, _: &str) -> hexroll::Result<()> {
+        Ok(())
+    }
+}
+
+/// A coarse wheel pressed by 2.2 mm, and rolled for `duration` if that is not zero.
+fn scene(eta: f64, duration: f64) -> Scene {
+    let mut scene = wheel([24, 3, 3], 1.0);
+    scene.body.viscosity = (eta > 0.0).then_some(eta);
+    scene.output.sample = 1e-3;
+    scene.output.snapshots = Snapshots::None;
+    let template = Stage { rim: common::HELD, ..scene.stages[0].clone() };
+    let down = Drive::Displacement { to: -2.2e-3, ramp: 0.02 };
+    let press = Stage {
+        name: "press".into(),
+        method: Method::QuasiStatic { kinetic_ratio: 1e-8, residual: 1e-4 },
+        duration: 0.2,
+        mass_damping: 3000.0,
+        initial_velocity: None,
+        rim: RimMotion { z: down, ..common::HELD },
+        ..template.clone()
+    };
+    let at = |to: f64| Drive::Velocity { to, ramp: 0.0 };
+    let roll = Stage {
+        name: "roll".into(),
+        method: Method::Explicit,
+        duration,
+        mass_damping: 0.0,
+        initial_velocity: Some(InitialVelocity::Rim),
+        rim: RimMotion { x: at(2.59), spin: at(70.0), ..common::HELD },
+        ..template
+    };
+    scene.stages = if duration > 0.0 { vec![press, roll] } else { vec![press] };
+    scene
+}
+
+/// Forces along x and z, the mean of the last ten windows (one of a pressed wheel), and the totals.
+fn forces(scene: &Scene, safety: f64, precision: Precision) -> ([f64; 2], Totals) {
+    let scene = Scene { safety, ..scene.clone() };
+    let model = Model::new(&scene).unwrap();
+    let mut engine = cpu::engine(&model, &scene, precision, 1);
+    let mut rows = Rows::default();
+    let totals = run::run(&scene, &model, &mut *engine, &mut rows).unwrap();
+    let count = if scene.stages.len() > 1 { 10 } else { 1 };
+    let last = &rows.0[rows.0.len() - count..];
+    let mean = |f: fn(&Sample) -> f64| last.iter().map(f).sum::<f64>() / count as f64;
+    ([mean(|s| s.road_fx_N), mean(|s| s.road_fz_N)], totals)
+}
+
+/// Largest difference of two pairs of forces over the load.
+fn difference(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (0..2).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max) / b[1]
+}
+
+/// Rolling, viscous and elastic: the error against a third of the step is within the class of the time step, the error of
+/// single precision within that of rounding, and neither class is more than 1000 times too large: a class says something.
+#[test]
+fn rolling_runs_know_the_class_of_their_errors() {
+    for (eta, duration) in [(20.0, 0.02), (20.0, 0.1), (0.0, 0.02)] {
+        let scene = scene(eta, duration);
+        let (double, totals) = forces(&scene, 0.9, Precision::F64);
+        let (short, of_short) = forces(&scene, 0.3, Precision::F64);
+        let (single, of_single) = forces(&scene, 0.9, Precision::F32);
+        let case = format!("eta {eta}, {duration} s");
+        let class = totals.estimate.time_step.unwrap();
+        let error = difference(double, short);
+        assert!(error <= class && class < 1e3 * error, "{case}: step {error:e}, said {class:e}");
+        assert!(of_short.estimate.time_step.unwrap() < class, "{case}: a shorter step is said to be better");
+        let class = of_single.estimate.rounding.unwrap();
+        let error = difference(single, double);
+        assert!(error <= class && class < 1e3 * error, "{case}: rounding {error:e}, said {class:e}");
+        assert!(totals.estimate.rounding.unwrap() < 1e-11, "{case}: {:?}", totals.estimate);
+        assert_eq!(totals.estimate.residual, None);
+    }
+}
+
+/// A pressed wheel has a residual instead of a time-step error, within what was asked for in double precision; its force
+/// does not depend on the step by more.
+#[test]
+fn a_pressed_wheel_knows_its_residual() {
+    let scene = scene(0.0, 0.0);
+    let (double, totals) = forces(&scene, 0.9, Precision::F64);
+    let (short, _) = forces(&scene, 0.3, Precision::F64);
+    let residual = totals.estimate.residual.unwrap();
+    assert!(totals.estimate.time_step.is_none() && residual <= 1e-4, "{:?}", totals.estimate);
+    assert!(difference(double, short) <= residual, "{double:?}, {short:?}, {residual:e}");
+    let (single, totals) = forces(&scene, 0.9, Precision::F32);
+    let said = totals.estimate.residual.unwrap() + totals.estimate.rounding.unwrap();
+    assert!(difference(single, double) <= said, "{single:?}, {double:?}, {:?}", totals.estimate);
+}
