@@ -178,9 +178,10 @@ mod tests {
     use crate::scene::Scene;
     use std::path::Path;
 
+    /// More rows than the finder of chains leaves in the order in which they come.
     fn ring() -> (Scene, Model) {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/lat100_straight.toml");
-        let scene = Scene::load(&file, &["body.mesh.elements=[11, 3, 4]".into()]).unwrap();
+        let scene = Scene::load(&file, &["body.mesh.elements=[11, 8, 9]".into()]).unwrap();
         let model = Model::new(&scene).unwrap();
         (scene, model)
     }
@@ -226,7 +227,7 @@ mod tests {
             sorted.sort_unstable();
             assert_eq!(sorted, (0..count as u32).collect::<Vec<u32>>());
         }
-        // Nodes of an element within two layers of rows: 60 of 220 by 11 a row; at random nearly all.
+        // Within two diagonals of the 9 x 10 rows of 11 nodes, 220 of 990; at random 7/9 of all.
         let mut new = vec![0; order.nodes.len()];
         order.nodes.iter().enumerate().for_each(|(to, &from)| new[from as usize] = to as i64);
         let width = |h: &[u32; 8]| {
@@ -234,6 +235,6 @@ mod tests {
             at.iter().max().unwrap() - at.iter().min().unwrap()
         };
         let mean = other.mesh.hexes.iter().map(width).sum::<i64>() / other.mesh.hexes.len() as i64;
-        assert!(mean < 90, "{mean}");
+        assert!(mean < 330, "{mean}");
     }
 }

@@ -69,22 +69,25 @@ fn programs_hold_only_what_the_scene_uses() {
     let place = Place::new();
     place.scene("block.toml", |text| text);
     let full = check(&place, &["block.toml"]);
-    let parts = strings(&program(&full, "node")["parts"]);
+    let parts = strings(&program(&full, "boundary")["parts"]);
     assert!(parts.contains(&"friction/coulomb") && parts.contains(&"lib/gravity"), "{parts:?}");
-    assert!(bindings(&full, "node").contains(&"surface_sums".into()));
+    assert!(bindings(&full, "boundary").contains(&"surface_sums".into()));
+    // Nodes inside the body meet no road.
+    let inside = strings(&program(&full, "node")["parts"]);
+    assert!(!inside.contains(&"friction/coulomb") && inside.contains(&"lib/gravity"), "{inside:?}");
     assert!(bindings(&full, "element_force").contains(&"viscous_work".into()));
 
     let bare = check(
         &place,
         &["block.toml", "--set", "friction.coefficient=0", "--set", "body.material.viscosity=0 Pa s"],
     );
-    let parts = strings(&program(&bare, "node")["parts"]);
+    let parts = strings(&program(&bare, "boundary")["parts"]);
     assert!(!parts.contains(&"friction/coulomb") && parts.contains(&"contact/frictionless"), "{parts:?}");
     assert!(!bindings(&bare, "element_force").contains(&"viscous_work".into()));
 
     let bar = check(&place, &[&shipped("bar_wave.toml")]);
-    assert!(!bindings(&bar, "node").contains(&"surface_sums".into()), "no road, no contact");
-    assert!(bindings(&bar, "node").contains(&"rim_sums".into()));
+    assert!(!bindings(&bar, "boundary").contains(&"surface_sums".into()), "no road, no contact");
+    assert!(bindings(&bar, "boundary").contains(&"rim_sums".into()));
 }
 
 #[test]
@@ -96,8 +99,9 @@ fn memory_grows_with_the_mesh() {
         let buffers = check["gpu"]["buffers"].as_array().unwrap().clone();
         buffers.iter().find(|b| b["name"] == "slots").unwrap()["bytes"].as_u64().unwrap()
     };
-    // Four single-precision numbers for each of eight corners of 64 elements side by side, and as many again.
-    assert_eq!((slots("[2, 2, 2]"), slots("[4, 5, 6]")), (64 * 128, 128 * 128));
+    // Four single-precision numbers for each corner of a face, for 64 chains side by side; a chain has a face more than
+    // elements along z.
+    assert_eq!((slots("[2, 2, 2]"), slots("[4, 5, 6]")), (3 * 64 * 64, 7 * 64 * 64));
 }
 
 #[test]
