@@ -133,7 +133,9 @@ fn stage_kernels(choice: &Choice) -> Vec<(Kernel, &'static str)> {
 
 fn program(choice: &Choice, kernel: Kernel, runs: &'static str) -> Result<Program> {
     let parts = choice.parts(kernel);
-    let entry = parts.iter().find_map(|part| part.strip_prefix("kernels/")).unwrap_or("?");
+    let file = parts.iter().find_map(|part| part.strip_prefix("kernels/")).unwrap_or("?");
+    // The node kernel with other nodes.
+    let entry = if kernel == Kernel::Boundary { "boundary" } else { file };
     let module = choice.module(kernel)?;
     Ok(Program {
         kernel: entry.into(),
