@@ -69,9 +69,9 @@ fn compare(gpu: &Gpu, stem: &str, engines: &[Who], verdict: Verdict, tolerance: 
     }
 }
 
-/// Viscosity leaves the tone of a coarse mesh.
+/// Viscosity leaves the tone of a coarse mesh, 3.5 % of the load: below the limit.
 pub fn viscous(gpu: &Gpu) {
-    compare(gpu, "lat100_straight_viscous", &[Who::Gpu, Who::Plus], Verdict::Tone, 0.003, 0.005);
+    compare(gpu, "lat100_straight_viscous", &[Who::Gpu, Who::Plus], Verdict::Smooth, 0.003, 0.005);
 }
 
 /// Without it friction amplifies rounding, so that single steps differ.
