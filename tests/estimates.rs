@@ -72,7 +72,8 @@ fn difference(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// Rolling, viscous and elastic: the error against a third of the step is within the class of the time step, the error of
-/// single precision within that of rounding, and neither class is more than 1000 times too large: a class says something.
+/// single precision within that of rounding. A class says something: it is not a thousand times too large for the step, and not
+/// ten thousand times for rounding, which is an estimate of a single node's, where forces are means over nodes and steps.
 #[test]
 fn rolling_runs_know_the_class_of_their_errors() {
     for (eta, duration) in [(20.0, 0.02), (20.0, 0.1), (0.0, 0.02)] {
@@ -87,7 +88,7 @@ fn rolling_runs_know_the_class_of_their_errors() {
         assert!(of_short.estimate.time_step.unwrap() < class, "{case}: a shorter step is said to be better");
         let class = of_single.estimate.rounding.unwrap();
         let error = difference(single, double);
-        assert!(error <= class && class < 1e3 * error, "{case}: rounding {error:e}, said {class:e}");
+        assert!(error <= class && class < 1e4 * error, "{case}: rounding {error:e}, said {class:e}");
         assert!(totals.estimate.rounding.unwrap() < 1e-11, "{case}: {:?}", totals.estimate);
         assert_eq!(totals.estimate.residual, None);
     }

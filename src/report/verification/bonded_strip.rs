@@ -5,6 +5,9 @@
 //! squeezed volume that flows out. The pressure gives kappa (1 - T), for kappa -> infinity 4 G S^2, S = b / t; what the
 //! strip resists without pressure is 4/3 G where it cannot flow and 4 G where it does:
 //! E_c = kappa (1 - T) + G (4/3 + 8/3 T).
+//!
+//! It stands for Cook's membrane, which asks for a traction on an edge: a scene has held components, rims and roads, and no
+//! surface loads.
 
 use crate::Result;
 use crate::report::bench::{DENSITY, G, HELD, block, explicit, hold, simulate};
