@@ -5,7 +5,7 @@ mod chains;
 mod elements;
 mod energies;
 mod engine;
-mod family;
+pub(crate) mod family;
 mod layout;
 mod nodes;
 mod reduce;
