@@ -93,7 +93,7 @@ where
         let (slot_start, slot_at) = slots_by_place(&layout);
         let shares = shares(&layout, threads);
         let mut engine = CpuEngine {
-            kernel: elements::compose(model.element, model.law, model.viscosity, level),
+            kernel: elements::compose(model, level),
             power: vec![0.0; layout.items.len() * WIDEST],
             sums: vec![LineSums::default(); layout.lines.len()],
             contact: [0, 1].map(|_| vec![LineContact::default(); layout.surface_lines]),

@@ -68,20 +68,21 @@ fn interpolate<S: Scalar>(e: &[Vec3<S>; 4]) -> [Vec3<S>; 4] {
 }
 
 #[inline(always)]
-fn edge<S: Scalar>(x: &Corners<S>, d: usize, m: usize) -> Vec3<S> {
-    let (a, b) = EDGES[d][m];
+fn edge<S: Scalar, const D: usize, const M: usize>(x: &Corners<S>) -> Vec3<S> {
+    const { assert!(D < 3 && M < 4) };
+    let (a, b) = EDGES[D][M];
     sub(x[b], x[a])
 }
 
 #[inline(always)]
-fn direction<S: Scalar>(x: &Corners<S>, d: usize) -> [Vec3<S>; 4] {
-    interpolate(&[edge(x, d, 0), edge(x, d, 1), edge(x, d, 2), edge(x, d, 3)])
+fn direction<S: Scalar, const D: usize>(x: &Corners<S>) -> [Vec3<S>; 4] {
+    interpolate(&[edge::<S, D, 0>(x), edge::<S, D, 1>(x), edge::<S, D, 2>(x), edge::<S, D, 3>(x)])
 }
 
 /// A = dx/dxi on the Gauss lines.
 #[inline(always)]
 pub fn gradients<S: Scalar>(x: &Corners<S>) -> LineColumns<S> {
-    [direction(x, 0), direction(x, 1), direction(x, 2)]
+    [direction::<S, 0>(x), direction::<S, 1>(x), direction::<S, 2>(x)]
 }
 
 /// A at point q.
@@ -91,13 +92,15 @@ pub fn at<S: Scalar>(columns: &LineColumns<S>, q: usize) -> Mat3<S> {
     [columns[0][i], columns[1][j], columns[2][k]]
 }
 
-/// Adds the force matrix of point q to the lines.
+/// Adds the force matrix of point q to the lines; points are taken in ascending order, and the first one on a line starts
+/// its sum.
 #[inline(always)]
 pub fn accumulate<S: Scalar>(lines_force: &mut LineColumns<S>, q: usize, g: &Mat3<S>) {
-    let at = lines(q);
-    for d in 0..3 {
-        lines_force[d][at[d]] = add(lines_force[d][at[d]], g[d]);
-    }
+    let [i, j, k] = lines(q);
+    let [x, y, z] = lines_force;
+    x[i] = if q & 1 == 0 { g[0] } else { add(x[i], g[0]) };
+    y[j] = if q >> 1 & 1 == 0 { g[1] } else { add(y[j], g[1]) };
+    z[k] = if q >> 2 & 1 == 0 { g[2] } else { add(z[k], g[2]) };
 }
 
 /// Volume of an element, exact for trilinear maps: three triple products of differences of corners (Grandy 1997).
@@ -114,22 +117,19 @@ pub fn volume<S: Scalar>(x: &Corners<S>) -> S {
 /// Corner forces sum_q sum_d G_d dN_a/dxi_d from the sums on the lines.
 #[inline(always)]
 pub fn scatter<S: Scalar>(lines_force: &LineColumns<S>) -> Corners<S> {
-    let mut f = [[S::zero(); 3]; 8];
-    for d in 0..3 {
-        let edges = interpolate(&lines_force[d]);
-        for m in 0..4 {
-            let (a, b) = EDGES[d][m];
-            if d == 0 {
-                // Every corner ends one edge of each direction: the first one starts its sum.
-                f[a] = neg(edges[m]);
-                f[b] = edges[m];
-            } else {
-                f[a] = sub(f[a], edges[m]);
-                f[b] = add(f[b], edges[m]);
-            }
-        }
-    }
-    f
+    let [x, y, z] =
+        [interpolate(&lines_force[0]), interpolate(&lines_force[1]), interpolate(&lines_force[2])];
+    // Every corner ends one edge of each direction (`EDGES`).
+    [
+        neg(add(x[0], add(y[0], z[0]))),
+        sub(x[0], add(y[1], z[1])),
+        add(x[1], sub(y[1], z[3])),
+        sub(sub(y[0], x[1]), z[2]),
+        sub(sub(z[0], x[2]), y[2]),
+        add(x[2], sub(z[1], y[3])),
+        add(x[3], add(y[3], z[3])),
+        sub(add(y[2], z[2]), x[3]),
+    ]
 }
 
 /// Invariants and the products the force needs at a point.
@@ -143,10 +143,10 @@ pub struct Kinematics<S> {
     pub i2: S,
 }
 
-/// I1 and, where the law wants it, I2 of C = J0^-T A^T A J0^-1.
+/// I1 and, where the law wants it, I2 of C = J0^-T A^T A J0^-1. `EXTRUDED`: M couples zeta with neither xi nor eta.
 #[inline(always)]
-pub fn kinematics<S: Scalar, L: Law<S>>(a: &Mat3<S>, m: &Sym3<S>) -> Kinematics<S> {
-    let am = m.left_multiplied(a);
+pub fn kinematics<S: Scalar, L: Law<S>, const EXTRUDED: bool>(a: &Mat3<S>, m: &Sym3<S>) -> Kinematics<S> {
+    let am = if EXTRUDED { m.left_multiplied_in_plane(a) } else { m.left_multiplied(a) };
     if !L::HAS_I2 {
         let i1 = dot(a[0], am[0]) + dot(a[1], am[1]) + dot(a[2], am[2]);
         return Kinematics { am, gram_m: [[S::zero(); 3]; 3], i1, i2: S::zero() };
@@ -317,6 +317,15 @@ impl<N: Lanes> Shape<N> for LaneShapes<'_, N::Real> {
 }
 
 impl Class<f64> {
+    /// Whether the element is a plane figure extruded along zeta: M is zero, up to round-off, where zeta meets xi or eta.
+    pub fn is_extruded(&self) -> bool {
+        let none = |m: &Sym3<f64>| {
+            let small = 1e-14 * (m.xx.max(m.yy) * m.zz).sqrt();
+            m.xz.abs() <= small && m.yz.abs() <= small
+        };
+        self.metric.iter().all(none)
+    }
+
     /// Geometry of an element with reference corners `X`; `hourglass_modulus` = c G and `hourglass_eta` = c eta.
     /// `None` if det J0 is not positive at a point or a corner (an inside-out element).
     pub fn new(X: &Corners<f64>, hourglass_modulus: f64, hourglass_eta: f64) -> Option<Self> {

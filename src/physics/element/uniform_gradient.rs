@@ -27,7 +27,7 @@ impl Formulation for UniformGradient {
         let f = mean_gradient(class, x);
         let cof = cofactor(&f);
         let j = dot(f[0], cof[0]);
-        let k = hex8::kinematics::<S, L>(&f, &identity());
+        let k = hex8::kinematics::<S, L, true>(&f, &identity());
         let d = law.first_piola(k.i1, k.i2, j);
         let mut p = hex8::force_matrix::<S, L>(&k, &d, law.dU(j), &cof, S::one(), S::one());
         let mut hourglass = hourglass_modes(class, x, &f);
@@ -53,7 +53,7 @@ impl Formulation for UniformGradient {
     fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
         let f = mean_gradient(class, x);
         let j = det(&f);
-        let k = hex8::kinematics::<S, L>(&f, &identity());
+        let k = hex8::kinematics::<S, L, true>(&f, &identity());
         let mut q2 = S::zero();
         let modes = hourglass_modes(class, x, &f);
         for q in &modes {
