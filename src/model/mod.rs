@@ -80,7 +80,7 @@ impl Model {
         self.mesh.nodes.len()
     }
 
-    /// Whether every element is a plane figure extruded along zeta.
+    /// Whether every element is a plane figure extruded along eta.
     pub fn is_extruded(&self) -> bool {
         self.classes.iter().all(Class::is_extruded)
     }

@@ -88,13 +88,13 @@ impl<S: Scalar> Sym3<S> {
         ]
     }
 
-    /// The same where xz and yz are zero.
+    /// The same where xy and yz are zero.
     #[inline(always)]
     pub fn left_multiplied_in_plane(&self, a: &Mat3<S>) -> Mat3<S> {
         [
-            axpy(a[0], self.xx, scale(a[1], self.xy)),
-            axpy(a[0], self.xy, scale(a[1], self.yy)),
-            scale(a[2], self.zz),
+            axpy(a[0], self.xx, scale(a[2], self.xz)),
+            scale(a[1], self.yy),
+            axpy(a[0], self.xz, scale(a[2], self.zz)),
         ]
     }
 

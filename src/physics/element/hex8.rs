@@ -143,7 +143,7 @@ pub struct Kinematics<S> {
     pub i2: S,
 }
 
-/// I1 and, where the law wants it, I2 of C = J0^-T A^T A J0^-1. `EXTRUDED`: M couples zeta with neither xi nor eta.
+/// I1 and, where the law wants it, I2 of C = J0^-T A^T A J0^-1. `EXTRUDED`: M couples eta with neither xi nor zeta.
 #[inline(always)]
 pub fn kinematics<S: Scalar, L: Law<S>, const EXTRUDED: bool>(a: &Mat3<S>, m: &Sym3<S>) -> Kinematics<S> {
     let am = if EXTRUDED { m.left_multiplied_in_plane(a) } else { m.left_multiplied(a) };
@@ -317,11 +317,12 @@ impl<N: Lanes> Shape<N> for LaneShapes<'_, N::Real> {
 }
 
 impl Class<f64> {
-    /// Whether the element is a plane figure extruded along zeta: M is zero, up to round-off, where zeta meets xi or eta.
+    /// Whether the element is a plane figure extruded along eta, as those of a ring, whose width that is, or of a block: M is
+    /// zero, up to round-off, where eta meets xi or zeta.
     pub fn is_extruded(&self) -> bool {
         let none = |m: &Sym3<f64>| {
-            let small = 1e-14 * (m.xx.max(m.yy) * m.zz).sqrt();
-            m.xz.abs() <= small && m.yz.abs() <= small
+            let small = 1e-14 * (m.xx.max(m.zz) * m.yy).sqrt();
+            m.xy.abs() <= small && m.yz.abs() <= small
         };
         self.metric.iter().all(none)
     }

@@ -31,7 +31,7 @@ impl Formulation for Q1p0 {
     }
 }
 
-/// The same for elements that are all extruded along zeta ([`super::Class::is_extruded`]), as those of a ring or a block: a
+/// The same for elements that are all extruded along eta ([`super::Class::is_extruded`]), as those of a ring or a block: a
 /// tenth fewer operations.
 #[derive(Debug, Clone, Copy)]
 pub struct ExtrudedQ1p0;
