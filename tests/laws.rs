@@ -211,11 +211,7 @@ const ETA: f64 = 20.0;
 /// (columns).
 fn viscous(A: &Mat3<f64>, L: &Mat3<f64>) -> (Mat3<f64>, f64) {
     let rate = A.map(|column| times(L, column));
-    let (columns, power) = KelvinVoigt::<f64>::new(ETA).stress(&rate, &cofactor(A), det(A), 1.0);
-    // sigma = sum_d (sigma cof_d) (x) A_d / det A
-    let sigma = std::array::from_fn(|j| {
-        std::array::from_fn(|i| (0..3).map(|d| columns[d][i] * A[d][j]).sum::<f64>() / det(A))
-    });
+    let (sigma, power) = KelvinVoigt::<f64>::new(ETA).stress(&rate, &cofactor(A), det(A), 1.0);
     (sigma, power / det(A))
 }
 

@@ -7,7 +7,9 @@
 use crate::physics::lanes::Lanes;
 use crate::physics::material::{Derivatives, Law};
 use crate::physics::scalar::Scalar;
-use crate::physics::tensor::{Mat3, Sym3, Vec3, add, axpy, cofactor, cross, det, dot, neg, scale, sub};
+use crate::physics::tensor::{
+    Mat3, Sym3, Vec3, add, axpy, cofactor, combined, cross, det, dot, neg, scale, sub,
+};
 use crate::scene::Lumping;
 
 /// One vector a corner, numbered as in [`crate::model::mesh`].
@@ -167,8 +169,8 @@ fn gram_column<S: Scalar>(a: &Mat3<S>, c: Vec3<S>) -> Vec3<S> {
 }
 
 /// Force matrix at a point, columns G_d with f_a = sum_d G_d dN_a/dxi_d:
-/// dV (2 W1 A M + 2 W2 (I1 A M - A M A^T A M)) + weight (WJ + p) cof A, where dV = weight det J0. With the mean gradient
-/// in place of a point's, dV and weight are 1.
+/// dV (2 W1 A M + 2 W2 (I1 A M - A M A^T A M)) + (weight (WJ + p) + S) cof A, where dV = weight det J0 and S, if there is
+/// any, is weight times the viscous stress. With the mean gradient in place of a point's, dV and weight are 1.
 #[inline(always)]
 pub fn force_matrix<S: Scalar, L: Law<S>>(
     k: &Kinematics<S>,
@@ -177,14 +179,14 @@ pub fn force_matrix<S: Scalar, L: Law<S>>(
     cof: &Mat3<S>,
     dv: S,
     weight: S,
+    viscous: Option<&Mat3<S>>,
 ) -> Mat3<S> {
     let two = dv + dv;
-    let volumetric = (d.wj + pressure) * weight;
-    let mut g = [[S::zero(); 3]; 3];
+    let mut g = pushed(cof, (d.wj + pressure) * weight, viscous);
     if !L::HAS_I2 {
         let c1 = two * d.w1;
         for c in 0..3 {
-            g[c] = axpy(k.am[c], c1, scale(cof[c], volumetric));
+            g[c] = axpy(k.am[c], c1, g[c]);
         }
         return g;
     }
@@ -193,9 +195,26 @@ pub fn force_matrix<S: Scalar, L: Law<S>>(
     for c in 0..3 {
         let n = k.gram_m[c];
         let amn = axpy(k.am[0], n[0], axpy(k.am[1], n[1], scale(k.am[2], n[2])));
-        g[c] = axpy(amn, -c2, axpy(k.am[c], c1, scale(cof[c], volumetric)));
+        g[c] = axpy(amn, -c2, axpy(k.am[c], c1, g[c]));
     }
     g
+}
+
+/// (pressure I + S) cof A.
+#[inline(always)]
+fn pushed<S: Scalar>(cof: &Mat3<S>, pressure: S, stress: Option<&Mat3<S>>) -> Mat3<S> {
+    let Some(stress) = stress else {
+        return [scale(cof[0], pressure), scale(cof[1], pressure), scale(cof[2], pressure)];
+    };
+    let mut all = *stress;
+    all[0][0] += pressure;
+    all[1][1] += pressure;
+    all[2][2] += pressure;
+    [
+        combined(&all, cof[0][0], cof[0][1], cof[0][2]),
+        combined(&all, cof[1][0], cof[1][1], cof[1][2]),
+        combined(&all, cof[2][0], cof[2][1], cof[2][2]),
+    ]
 }
 
 /// Reference geometry shared by all elements that differ by a rigid motion only.

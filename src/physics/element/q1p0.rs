@@ -2,7 +2,7 @@ use super::hex8::{self, Corners, Shape};
 use super::{Energy, Force, Formulation};
 use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::Scalar;
-use crate::physics::tensor::{Mat3, add, cofactor, det, dot};
+use crate::physics::tensor::{cofactor, det, dot};
 
 /// 2x2x2 points for the isochoric part, one element pressure p = U'(v/V) (Simo, Taylor & Pister's mean
 /// dilatation): no volumetric locking. dv/dx_a comes from cof A.
@@ -99,17 +99,20 @@ pub(super) fn points<
             let k = hex8::kinematics::<S, L, EXTRUDED>(&a, &class.metric(q));
             let d = law.first_piola(k.i1, k.i2, j);
             let pressure = if POINTWISE { law.dU(j) } else { mean };
-            let mut g = hex8::force_matrix::<S, L>(&k, &d, pressure, &cof, class.det_j0(q), weight);
-            if V::ON {
+            let dv = class.det_j0(q);
+            let g = if V::ON {
                 let (viscous, point_power) = viscosity.stress(&hex8::at(&rates, q), &cof, det_a, weight);
-                g = sum(g, viscous);
                 power += point_power;
-            }
+                hex8::force_matrix::<S, L>(&k, &d, pressure, &cof, dv, weight, Some(&viscous))
+            } else {
+                hex8::force_matrix::<S, L>(&k, &d, pressure, &cof, dv, weight, None)
+            };
             min_j = min_j.min(j);
             hex8::accumulate(&mut lines, q, &g);
         }};
     }
-    if S::UNROLLED {
+    // Unrolled code takes long to compile: it is kept to the case that most runs are.
+    if S::UNROLLED && EXTRUDED {
         point!(0);
         point!(1);
         point!(2);
@@ -142,9 +145,4 @@ pub(super) fn pointwise_energy<S: Scalar, L: Law<S>, G: Shape<S>, const POINTWIS
         min_j = min_j.min(j);
     }
     Energy { strain, hourglass: S::zero(), min_j }
-}
-
-#[inline(always)]
-pub(super) fn sum<S: Scalar>(a: Mat3<S>, b: Mat3<S>) -> Mat3<S> {
-    [add(a[0], b[0]), add(a[1], b[1]), add(a[2], b[2])]
 }
