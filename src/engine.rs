@@ -120,6 +120,35 @@ pub struct Window {
     pub min_jacobian: f64,
 }
 
+impl Window {
+    /// Adds the window that follows: sums over both, states and energies as they are after the second.
+    pub fn extend(&mut self, later: Window) {
+        let mut sums = std::mem::take(self);
+        sums.works.accumulate(&later.works);
+        for d in 0..3 {
+            sums.rim_impulse[d] += later.rim_impulse[d];
+            sums.rim_moment_impulse[d] += later.rim_moment_impulse[d];
+        }
+        sums.step_contact.extend(&later.step_contact);
+        let node = |(sum, node): (&SurfaceSum, &SurfaceSum)| SurfaceSum {
+            impulse: std::array::from_fn(|d| sum.impulse[d] + node.impulse[d]),
+            friction_work: sum.friction_work + node.friction_work,
+            touching: sum.touching + node.touching,
+            sticking: sum.sticking + node.sticking,
+            ..*node
+        };
+        *self = Window {
+            steps: sums.steps + later.steps,
+            works: sums.works,
+            rim_impulse: sums.rim_impulse,
+            rim_moment_impulse: sums.rim_moment_impulse,
+            surface: sums.surface.iter().zip(&later.surface).map(node).collect(),
+            step_contact: sums.step_contact,
+            ..later
+        };
+    }
+}
+
 /// The step after the window, computed but not taken: what the stored energy pairs with.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Probe {

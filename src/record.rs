@@ -42,11 +42,13 @@ pub struct Sample {
     pub sticking_share: f64,
     /// Nodes that change their contact state (free, stick, slip) from one step to the next, over touching nodes.
     pub changing_share: f64,
-    /// Extent of the footprint along the wheel's heading and across it, over nodes that touch for half of the window
-    /// or more, with the halves of the facets beside them [m].
+    /// Extent of the footprint along the wheel's heading and across it, over nodes that touch for half of the window (of
+    /// the time in which a wheel rolls over a facet, if that is shorter) or more, with the halves of the facets beside
+    /// them [m].
     pub footprint_length_m: f64,
     pub footprint_width_m: f64,
-    /// Largest normal force of a node, mean over the window, over its deformed area [Pa].
+    /// Largest normal force of a node over its deformed area, mean over its time in contact within the window (within
+    /// a facet's passing, if that is shorter) [Pa].
     pub peak_pressure_Pa: f64,
     /// Kinetic energy at the last half step [J].
     pub kinetic_J: f64,

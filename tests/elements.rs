@@ -6,7 +6,9 @@ mod common;
 use common::{ELEMENTS, G, LAWS, Random, block, close, largest, times, wheel};
 use hexroll::model::Model;
 use hexroll::model::mesh::{Mesh, SIGNS};
-use hexroll::physics::element::{Class, Corners, Energy, Force, Formulation, Full, Q1p0, UniformGradient};
+use hexroll::physics::element::{
+    Class, Corners, Energy, ExtrudedQ1p0, Force, Formulation, Full, Q1p0, UniformGradient,
+};
 use hexroll::physics::material::{
     Inviscid, KelvinVoigt, Law as Material, MooneyRivlin, MooneyRivlinEq4, NeoHookean, Viscosity,
 };
@@ -302,6 +304,45 @@ fn forces_do_not_depend_on_which_element_names_the_class() {
             }
         }
     }
+}
+
+/// Elements of a ring and of a block are extruded, distorted ones are not; and where they are, the shorter routine computes
+/// the same force.
+#[test]
+fn extruded_elements_take_the_shorter_way_to_the_same_force() {
+    let mut random = Random::new(12);
+    let mut scenes = [wheel([12, 2, 3], 0.0), block([0.02, 0.015, 0.01], [2, 3, 2])];
+    for scene in &mut scenes {
+        for law in LAWS {
+            scene.body.law = law;
+            let model = Model::new(scene).unwrap();
+            assert!(model.is_extruded());
+            for (hex, &class) in model.mesh.hexes.iter().zip(&model.class_of) {
+                let X = hex.map(|n| model.mesh.nodes[n as usize]);
+                let x = deformed(&mut random, &X);
+                let v: Corners<f64> = std::array::from_fn(|_| random.vector());
+                let c = &model.classes[class as usize];
+                let general = force(Element::Q1p0, &law, c, &x, Some(&v));
+                let shorter = match law {
+                    Law::NeoHookean { .. } => {
+                        force_of::<ExtrudedQ1p0, NeoHookean<f64>>(&law, c, &x, Some(&v))
+                    }
+                    Law::MooneyRivlin { .. } => {
+                        force_of::<ExtrudedQ1p0, MooneyRivlin<f64>>(&law, c, &x, Some(&v))
+                    }
+                    Law::MooneyRivlinEq4 { .. } => {
+                        force_of::<ExtrudedQ1p0, MooneyRivlinEq4<f64>>(&law, c, &x, Some(&v))
+                    }
+                };
+                let scale = largest(&general.f);
+                for (a, b) in general.f.iter().flatten().zip(shorter.f.iter().flatten()) {
+                    // The same sums without terms that are zero up to round-off.
+                    assert!((a - b).abs() < 1e-12 * scale, "{a} {b}");
+                }
+            }
+        }
+    }
+    assert!(!class(&distorted(&mut random)).is_extruded());
 }
 
 fn body(lumping: Lumping) -> Body {

@@ -12,6 +12,9 @@ use crate::render::colour::{INK, QUIET, WHITE};
 const SIZE: [u32; 2] = [1600, 900];
 /// The plot's left, top, right and bottom [pixels].
 const PLOT: [f64; 4] = [150.0, 110.0, 1090.0, 790.0];
+/// Height that a line takes in the legend, and where the first one stands.
+const PITCH: f64 = 46.0;
+const FIRST: f64 = PLOT[1] + 20.0;
 const GRID: [u8; 3] = [226, 229, 234];
 /// Okabe and Ito's colours that carry a thin line on white.
 const COLOURS: [[u8; 3]; 7] = [
@@ -85,7 +88,8 @@ pub fn scaling(rows: &[Row]) -> Result<Option<RgbaImage>> {
         return Ok(None);
     }
     let fonts = Fonts::new()?;
-    let blank = RgbaImage::from_pixel(SIZE[0], SIZE[1], Rgba([WHITE[0], WHITE[1], WHITE[2], 255]));
+    let blank =
+        RgbaImage::from_pixel(SIZE[0], height(lines.len()), Rgba([WHITE[0], WHITE[1], WHITE[2], 255]));
     let mut canvas = Canvas::new(blank, &fonts, 1.0)?;
     let points = || lines.iter().flat_map(|l| &l.points);
     let x = Decades::around(points().map(|p| p[0]));
@@ -105,16 +109,18 @@ pub fn scaling(rows: &[Row]) -> Result<Option<RgbaImage>> {
         let dash = DASHES[index(&elements, &line.element) % DASHES.len()];
         let points: Vec<[f64; 2]> = line.points.iter().map(at).collect();
         stroke(&mut canvas, &points, colour, dash);
-        let y = PLOT[1] + 20.0 + 46.0 * number as f64;
-        if y < PLOT[3] {
-            let x = PLOT[2] + 40.0;
-            stroke(&mut canvas, &[[x, y], [x + 60.0, y]], colour, dash);
-            let second = format!("{}{}", line.element, line.conditions);
-            canvas.text(&line.engine, [x + 78.0, y - 9.0], Anchor::Left, Weight::Regular, 19.0, INK, 0.0);
-            canvas.text(&second, [x + 78.0, y + 11.0], Anchor::Left, Weight::Regular, 17.0, QUIET, 0.0);
-        }
+        let (x, y) = (PLOT[2] + 40.0, FIRST + PITCH * number as f64);
+        stroke(&mut canvas, &[[x, y], [x + 60.0, y]], colour, dash);
+        let second = format!("{}{}", line.element, line.conditions);
+        canvas.text(&line.engine, [x + 78.0, y - 9.0], Anchor::Left, Weight::Regular, 19.0, INK, 0.0);
+        canvas.text(&second, [x + 78.0, y + 11.0], Anchor::Left, Weight::Regular, 17.0, QUIET, 0.0);
     }
     canvas.finish().map(Some)
+}
+
+/// Height of a picture whose legend has every line.
+fn height(lines: usize) -> u32 {
+    SIZE[1].max((FIRST + PITCH * lines as f64) as u32)
 }
 
 fn distinct<'a>(names: impl Iterator<Item = &'a String>) -> Vec<&'a String> {
@@ -162,4 +168,19 @@ fn power(decade: i32) -> String {
     let groups: Vec<&str> =
         digits.as_bytes().rchunks(3).rev().map(|g| std::str::from_utf8(g).unwrap_or("")).collect();
     groups.join(",")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_legend_has_room_for_every_line() {
+        assert_eq!(height(1), SIZE[1]);
+        for lines in 1..60 {
+            // The second row of a line's text ends 20 pixels below its middle.
+            let last = FIRST + PITCH * (lines - 1) as f64;
+            assert!(last + 20.0 < f64::from(height(lines)), "{lines} lines");
+        }
+    }
 }

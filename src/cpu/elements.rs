@@ -5,7 +5,9 @@ use super::layout::{Item, Loose, Row};
 use super::state::{Aligned, View};
 use crate::model::Model;
 use crate::model::chains::{BACK, FRONT};
-use crate::physics::element::{Class, Corners, Formulation, Full, LaneShapes, Q1p0, UniformGradient};
+use crate::physics::element::{
+    Class, Corners, ExtrudedQ1p0, Formulation, Full, LaneShapes, Q1p0, UniformGradient,
+};
 use crate::physics::lanes::{Array, Lanes, Level, WIDEST, first};
 use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::{Real, Scalar};
@@ -338,27 +340,17 @@ pub fn width(level: Level, single: bool) -> usize {
 }
 
 /// Composes the kernel a model needs.
-pub fn compose<T>(
-    element: scene::Element,
-    law: scene::Law,
-    viscosity: Option<f64>,
-    level: Level,
-) -> Box<dyn Kernel<T>>
+pub fn compose<T>(model: &Model, level: Level) -> Box<dyn Kernel<T>>
 where
     T: 'static,
     Composable: Build<T>,
 {
-    Composable::build(element, law, viscosity, level)
+    Composable::build(model, level)
 }
 
 /// Builds kernels of a precision.
 pub trait Build<T> {
-    fn build(
-        element: scene::Element,
-        law: scene::Law,
-        viscosity: Option<f64>,
-        level: Level,
-    ) -> Box<dyn Kernel<T>>;
+    fn build(model: &Model, level: Level) -> Box<dyn Kernel<T>>;
 }
 
 /// Carrier of [`Build`].
@@ -367,13 +359,9 @@ pub struct Composable;
 macro_rules! build {
     ($real:ty) => {
         impl Build<$real> for Composable {
-            fn build(
-                element: scene::Element,
-                law: scene::Law,
-                viscosity: Option<f64>,
-                level: Level,
-            ) -> Box<dyn Kernel<$real>> {
+            fn build(model: &Model, level: Level) -> Box<dyn Kernel<$real>> {
                 use super::family::*;
+                let (law, viscosity) = (model.law, model.viscosity);
                 fn boxed<F: Formulation, L: LawFamily, V: ViscosityFamily>(
                     law: scene::Law,
                     eta: f64,
@@ -406,7 +394,10 @@ macro_rules! build {
                         }
                     }
                 }
-                match element {
+                match model.element {
+                    scene::Element::Q1p0 if model.is_extruded() => {
+                        with_formulation::<ExtrudedQ1p0>(law, viscosity, level)
+                    }
                     scene::Element::Q1p0 => with_formulation::<Q1p0>(law, viscosity, level),
                     scene::Element::Full => with_formulation::<Full>(law, viscosity, level),
                     scene::Element::UniformGradient { .. } => {

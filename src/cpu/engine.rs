@@ -93,7 +93,7 @@ where
         let (slot_start, slot_at) = slots_by_place(&layout);
         let shares = shares(&layout, threads);
         let mut engine = CpuEngine {
-            kernel: elements::compose(model.element, model.law, model.viscosity, level),
+            kernel: elements::compose(model, level),
             power: vec![0.0; layout.items.len() * WIDEST],
             sums: vec![LineSums::default(); layout.lines.len()],
             contact: [0, 1].map(|_| vec![LineContact::default(); layout.surface_lines]),
@@ -669,6 +669,8 @@ where
             sum.v = self.v.get(self.place[n as usize] as usize);
             sum.touches = self.steps > 0 && self.last_touch[k] == self.steps;
             sum.sticks &= sum.touches;
+            // The next step's changes are told from this one's states.
+            self.surface[k].sticks = sum.sticks;
         }
         let x = [0, 1, 2].map(|d| self.x.component(d));
         let energies = self.stored.totals(&self.elements.items, x);

@@ -4,7 +4,7 @@
 mod elements;
 mod energies;
 mod engine;
-mod family;
+pub(crate) mod family;
 mod layout;
 mod nodes;
 mod reduce;

@@ -1,6 +1,6 @@
 //! Internal force and consistent tangent of the whole body.
 
-use super::element::{Columns, ElementForce, Kernel, compose};
+use super::element::{ElementForce, Kernel, Tangent, compose};
 use super::matrix::BlockMatrix;
 use crate::error::Error;
 use crate::model::Model;
@@ -73,7 +73,7 @@ impl<'a> Assembler<'a> {
         let count = self.model.element_count();
         for first in (0..count).step_by(BATCH) {
             let range = first..(first + BATCH).min(count);
-            let columns: Vec<Box<Columns>> = range
+            let tangents: Vec<Box<Tangent>> = range
                 .clone()
                 .into_par_iter()
                 .map(|e| {
@@ -81,8 +81,8 @@ impl<'a> Assembler<'a> {
                     self.kernel.tangent(self.class(e), &self.corners(e, x), &self.corners(e, v), &rates)
                 })
                 .collect();
-            for (e, columns) in range.zip(&columns) {
-                scatter(&self.model.mesh.hexes[e], columns, matrix);
+            for (e, rows) in range.zip(&tangents) {
+                scatter(&self.model.mesh.hexes[e], rows, matrix);
             }
         }
     }
@@ -109,14 +109,14 @@ impl<'a> Assembler<'a> {
     }
 }
 
-fn scatter(hex: &[u32; 8], columns: &Columns, matrix: &mut BlockMatrix) {
+fn scatter(hex: &[u32; 8], rows: &Tangent, matrix: &mut BlockMatrix) {
     for (a, &row) in hex.iter().enumerate() {
         for (b, &column) in hex.iter().enumerate() {
             let entry = matrix.entry(row as usize, column);
             let block = &mut matrix.blocks[entry];
-            for (j, column) in columns[3 * b..3 * b + 3].iter().enumerate() {
-                for i in 0..3 {
-                    block[i][j] += column[a][i];
+            for i in 0..3 {
+                for j in 0..3 {
+                    block[i][j] += rows[a][i][3 * b + j];
                 }
             }
         }

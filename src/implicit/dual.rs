@@ -1,57 +1,54 @@
 //! Numbers that carry their derivatives: with one as the scalar, the force routine *is* the tangent routine.
 
+use crate::physics::lanes::Lanes;
 use crate::physics::scalar::Scalar;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A value and its derivatives along `N` directions.
+/// A value and its derivatives along as many directions as there are lanes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dual<const N: usize> {
+pub struct Dual<N> {
     pub value: f64,
-    pub tangent: [f64; N],
+    pub tangent: N,
 }
 
-impl<const N: usize> Dual<N> {
+impl<N: Lanes<Real = f64>> Dual<N> {
     /// A number that does not vary.
+    #[inline(always)]
     pub fn constant(value: f64) -> Self {
-        Dual { value, tangent: [0.0; N] }
+        Dual { value, tangent: N::zero() }
     }
 
     /// f(self) with the slope f'(self).
     #[inline(always)]
     fn chain(self, value: f64, slope: f64) -> Self {
-        Dual { value, tangent: self.tangent.map(|t| slope * t) }
+        Dual { value, tangent: self.tangent * N::splat(slope) }
     }
 
     /// f(a, b) with its two partial derivatives.
     #[inline(always)]
     fn chain2(self, other: Self, value: f64, [by_self, by_other]: [f64; 2]) -> Self {
-        let mut tangent = [0.0; N];
-        for i in 0..N {
-            tangent[i] = by_self * self.tangent[i] + by_other * other.tangent[i];
-        }
+        let tangent = self.tangent.mul_add(N::splat(by_self), other.tangent * N::splat(by_other));
         Dual { value, tangent }
     }
 }
 
-impl<const N: usize> Add for Dual<N> {
+impl<N: Lanes<Real = f64>> Add for Dual<N> {
     type Output = Self;
     #[inline(always)]
-    fn add(mut self, other: Self) -> Self {
-        self += other;
-        self
+    fn add(self, other: Self) -> Self {
+        Dual { value: self.value + other.value, tangent: self.tangent + other.tangent }
     }
 }
 
-impl<const N: usize> Sub for Dual<N> {
+impl<N: Lanes<Real = f64>> Sub for Dual<N> {
     type Output = Self;
     #[inline(always)]
-    fn sub(mut self, other: Self) -> Self {
-        self -= other;
-        self
+    fn sub(self, other: Self) -> Self {
+        Dual { value: self.value - other.value, tangent: self.tangent - other.tangent }
     }
 }
 
-impl<const N: usize> Mul for Dual<N> {
+impl<N: Lanes<Real = f64>> Mul for Dual<N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -59,7 +56,7 @@ impl<const N: usize> Mul for Dual<N> {
     }
 }
 
-impl<const N: usize> Div for Dual<N> {
+impl<N: Lanes<Real = f64>> Div for Dual<N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
@@ -68,47 +65,53 @@ impl<const N: usize> Div for Dual<N> {
     }
 }
 
-impl<const N: usize> Neg for Dual<N> {
+impl<N: Lanes<Real = f64>> Neg for Dual<N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        self.chain(-self.value, -1.0)
+        Dual { value: -self.value, tangent: -self.tangent }
     }
 }
 
-impl<const N: usize> AddAssign for Dual<N> {
+impl<N: Lanes<Real = f64>> AddAssign for Dual<N> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
-        self.value += other.value;
-        for i in 0..N {
-            self.tangent[i] += other.tangent[i];
-        }
+        *self = *self + other;
     }
 }
 
-impl<const N: usize> SubAssign for Dual<N> {
+impl<N: Lanes<Real = f64>> SubAssign for Dual<N> {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
-        self.value -= other.value;
-        for i in 0..N {
-            self.tangent[i] -= other.tangent[i];
-        }
+        *self = *self - other;
     }
 }
 
-impl<const N: usize> Scalar for Dual<N> {
+impl<N: Lanes<Real = f64>> Scalar for Dual<N> {
+    // Twenty-four numbers a corner are too many for registers anyway.
+    const UNROLLED: bool = false;
+
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Dual::constant(value)
     }
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {
-        let mut sum = b;
-        sum.value += self.value * a.value;
-        for i in 0..N {
-            sum.tangent[i] += self.value * a.tangent[i] + a.value * self.tangent[i];
+        let by_self = self.tangent.mul_add(N::splat(a.value), b.tangent);
+        Dual {
+            value: self.value * a.value + b.value,
+            tangent: a.tangent.mul_add(N::splat(self.value), by_self),
         }
-        sum
+    }
+    #[inline(always)]
+    fn mul_sub(self, a: Self, b: Self) -> Self {
+        self.mul_add(a, -b)
+    }
+    #[inline(always)]
+    fn neg_mul_add(self, a: Self, b: Self) -> Self {
+        let by_self = self.tangent.neg_mul_add(N::splat(a.value), b.tangent);
+        let tangent = a.tangent.neg_mul_add(N::splat(self.value), by_self);
+        Dual { value: b.value - self.value * a.value, tangent }
     }
     #[inline(always)]
     fn recip_cbrt(self) -> Self {
@@ -128,16 +131,19 @@ impl<const N: usize> Scalar for Dual<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::physics::lanes::Array;
 
     #[test]
     fn every_operation_carries_its_derivative() {
-        type D = Dual<2>;
+        type D = Dual<Array<f64, 2>>;
         let at = |x: f64, y: f64| {
-            let (a, b) = (D { value: x, tangent: [1.0, 0.0] }, D { value: y, tangent: [0.0, 1.0] });
-            (a * b - a / b).mul_add(a + b, -(b.ln() * a.recip_cbrt())) - a.min(b)
+            let unit = |i: usize| Array::splat(1.0).choose(Array::splat(0.0), 1 << i);
+            let (a, b) = (D { value: x, tangent: unit(0) }, D { value: y, tangent: unit(1) });
+            let sum = (a * b - a / b).mul_add(a + b, -(b.ln() * a.recip_cbrt())) - a.min(b);
+            sum + a.neg_mul_add(b * b, a) + a.mul_sub(a, b)
         };
         let (x, y, h) = (1.7, 2.3, 1e-6);
-        let d = at(x, y).tangent;
+        let d = [0, 1].map(|lane| at(x, y).tangent.lane(lane));
         let by_x = (at(x + h, y).value - at(x - h, y).value) / (2.0 * h);
         let by_y = (at(x, y + h).value - at(x, y - h).value) / (2.0 * h);
         // Central differences: h^2 plus round-off over h, about 1e-9.

@@ -6,6 +6,8 @@ use crate::physics::tensor::Vec3;
 
 /// Solves the linear systems of Newton's method.
 pub trait LinearSolver {
+    /// The residual, relative, that solutions to come go down to; one that is exact does not care.
+    fn aim(&mut self, _residual: f64) {}
     /// Readies the solver for a matrix. `None`: it cannot be solved (singular).
     fn prepare(&mut self, system: &System) -> Option<()>;
     /// Readies the solver for a matrix with the same fixed unknowns as the last one, and nearly its entries: an
@@ -59,6 +61,10 @@ pub struct Krylov<P> {
 }
 
 impl<P: Preconditioner> LinearSolver for Krylov<P> {
+    fn aim(&mut self, residual: f64) {
+        self.tolerance = residual;
+    }
+
     fn prepare(&mut self, system: &System) -> Option<()> {
         self.preconditioner.prepare(system)
     }

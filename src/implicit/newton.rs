@@ -26,6 +26,18 @@ pub struct Limits {
     pub iterations: usize,
 }
 
+/// Residuals of the linear equations, relative: the loosest, and the tightest that a solver is held to.
+const LOOSEST: f64 = 1e-4;
+const TIGHTEST: f64 = 1e-9;
+
+/// How exactly a linear system is solved (Dembo, Eisenstat & Steihaug 1982): with a residual of r times itself Newton's
+/// method still converges quadratically, and more than what ends it is of no use. `violation` is relative to the
+/// force scale, as is `asked`; at the start of an increment it does not know yet what the rim is about to do.
+fn forcing(first: bool, violation: f64, asked: f64) -> f64 {
+    let wanted = if first { LOOSEST } else { (0.01 * violation).max(0.3 * asked / violation) };
+    wanted.clamp(TIGHTEST, LOOSEST)
+}
+
 /// Iterations in a row with a changing contact set after which it is taken to swing.
 const SWINGS: usize = 6;
 
@@ -146,6 +158,9 @@ impl Newton {
                 *c = (d[0][0] + d[1][1] + d[2][2]) / 3.0;
             }
             rounding = self.rounding(&at);
+            if let Inner::ActiveSet(solver) = &mut self.inner {
+                solver.aim(forcing(n == 0, violation / scale, asked / scale));
+            }
             let correction = match self.correct(problem, inc, &mut at, &residual, &stiffness, scale) {
                 Ok(correction) => correction,
                 Err(failure) => {

@@ -80,6 +80,11 @@ impl Model {
     pub fn node_count(&self) -> usize {
         self.mesh.nodes.len()
     }
+
+    /// Whether every element is a plane figure extruded along eta.
+    pub fn is_extruded(&self) -> bool {
+        self.classes.iter().all(Class::is_extruded)
+    }
 }
 
 /// Sums of the corner masses by node.

@@ -18,6 +18,9 @@ pub trait Scalar:
     + AddAssign
     + SubAssign
 {
+    /// Whether a loop over points is worth its unrolling: not for lanes that the compiler itself has to put together.
+    const UNROLLED: bool = true;
+
     /// Nearest value (every lane).
     fn from_f64(value: f64) -> Self;
     /// self * a + b; fused only where the hardware does it at no cost.

@@ -88,6 +88,16 @@ impl<S: Scalar> Sym3<S> {
         ]
     }
 
+    /// The same where xy and yz are zero.
+    #[inline(always)]
+    pub fn left_multiplied_in_plane(&self, a: &Mat3<S>) -> Mat3<S> {
+        [
+            axpy(a[0], self.xx, scale(a[2], self.xz)),
+            scale(a[1], self.yy),
+            axpy(a[0], self.xz, scale(a[2], self.zz)),
+        ]
+    }
+
     pub fn map<T>(&self, f: impl Fn(S) -> T) -> Sym3<T> {
         Sym3 {
             xx: f(self.xx),

@@ -1,6 +1,7 @@
 //! Implicit stages in the run loop: increments instead of windows of steps, the same samples and snapshots, and the
 //! state handed to the engine for the stage that comes.
 
+use super::footprint::Footprint;
 use super::ledger::WindowEnd;
 use super::{Progress, Run};
 use crate::engine::{State, Window};
@@ -190,7 +191,9 @@ impl<'a> Run<'a> {
         self.dt_before = length / window.steps as f64;
         self.force_time = length;
         let at = WindowEnd { time, length, dt: self.dt_before, stage: stage.name.clone() };
-        let row = self.totals.ledger.row(self.model, self.scene.road.as_ref(), &at, &window);
+        let road = self.scene.road.as_ref();
+        let footprint = Footprint::of(self.model, road, length, &window);
+        let row = self.totals.ledger.row(road, &at, &window, &footprint);
         let totals = &self.totals;
         let progress = Progress { stage: &stage.name, time, end: self.end, steps: totals.steps, totals };
         self.observer.sample(&row, &progress)?;

@@ -1,9 +1,8 @@
 //! From windows to history rows: totals, balances, means.
 
 use super::chatter;
-use crate::engine::{SurfaceSum, Window, Works};
-use crate::model::Model;
-use crate::model::areas::{contact_areas, extents};
+use super::footprint::Footprint;
+use crate::engine::{Window, Works};
 use crate::physics::rim;
 use crate::physics::tensor::dot;
 use crate::record::Sample;
@@ -63,8 +62,8 @@ impl Ledger {
         (self.started, self.strain_start) = (true, strain);
     }
 
-    /// Books a window and makes its row.
-    pub fn row(&mut self, model: &Model, road: Option<&Road>, end: &WindowEnd, w: &Window) -> Sample {
+    /// Books a window and makes its row; `footprint` was taken over its parts.
+    pub fn row(&mut self, road: Option<&Road>, end: &WindowEnd, w: &Window, footprint: &Footprint) -> Sample {
         debug_assert!(self.started);
         self.works.accumulate(&w.works);
         self.book_friction(road, w);
@@ -90,7 +89,8 @@ impl Ledger {
         self.largest_term = terms.iter().fold(self.largest_term, |m, t| m.max(t.abs()));
         self.worst_balance = self.worst_balance.max(balance.abs());
         self.worst_stored_balance = self.worst_stored_balance.max(stored.abs());
-        let mut row = contact_part(model, road, end.length, w);
+        let mut row = footprint.row();
+        count_contact(&mut row, w);
         if let Some(gap) = lowest_gap(road, w) {
             self.worst_gap = self.worst_gap.min(gap);
         }
@@ -124,49 +124,19 @@ impl Ledger {
     }
 }
 
-/// Area, extents, number and states of the touching nodes.
-fn contact_part(model: &Model, road: Option<&Road>, length: f64, w: &Window) -> Sample {
-    let mut row = Sample::default();
-    let Some(road) = road else { return row };
+/// Numbers and states of the touching nodes.
+fn count_contact(row: &mut Sample, w: &Window) {
     let touching: u64 = w.surface.iter().map(|s| u64::from(s.touching)).sum();
     if touching == 0 {
-        return row;
+        return;
     }
     let sticking: u64 = w.surface.iter().map(|s| u64::from(s.sticking)).sum();
-    let at = |n: u32| match model.mesh.surface.binary_search(&n) {
-        Ok(k) => w.surface[k].x,
-        // A rim node: no road contact, and only the corner of a facet beside one.
-        Err(_) => model.mesh.nodes[n as usize],
-    };
-    let areas = contact_areas(&model.mesh, at, road);
-    let share = |s: &SurfaceSum| f64::from(s.touching) / w.steps as f64;
-    row.contact_area_m2 = w.surface.iter().zip(&areas).map(|(s, a)| share(s) * a).sum();
     row.contact_nodes = touching as f64 / w.steps as f64;
     row.sticking_share = sticking as f64 / touching as f64;
-    let touches = |k: usize| 2 * u64::from(w.surface[k].touching) >= w.steps;
-    let axes = road_axes(road, &w.rim);
-    [row.footprint_length_m, row.footprint_width_m] = extents(&model.mesh, at, road, touches, axes);
-    let Road::Plane { normal, .. } = road;
-    let pressure = |(s, area): (&SurfaceSum, &f64)| {
-        if *area > 0.0 { dot(s.impulse, *normal) / (length * area) } else { 0.0 }
-    };
-    row.peak_pressure_Pa = w.surface.iter().zip(&areas).map(pressure).fold(0.0, f64::max);
     let steps = &w.step_contact;
     let touched: u64 = steps.iter().map(|s| u64::from(s.touching)).sum();
     let changes: u64 = steps.iter().map(|s| u64::from(s.changes)).sum();
     row.changing_share = if touched > 0 { changes as f64 / touched as f64 } else { 0.0 };
-    row
-}
-
-/// Unit vectors in the road: along the wheel's heading, and to its left.
-pub fn road_axes(road: &Road, rim: &rim::Coordinates) -> [[f64; 3]; 2] {
-    let Road::Plane { normal, .. } = *road;
-    let normal = glam::DVec3::from(normal);
-    // The axle is square to the heading; where it stands on end, x is taken.
-    let across = rim::axle_direction(rim);
-    let heading = Some(across.cross(normal)).filter(|h| h.length() > 1e-6).unwrap_or(glam::DVec3::X);
-    let heading = heading.reject_from(normal).normalize_or(glam::DVec3::X);
-    [heading.to_array(), normal.cross(heading).to_array()]
 }
 
 fn lowest_gap(road: Option<&Road>, w: &Window) -> Option<f64> {

@@ -3,6 +3,7 @@
 mod chatter;
 pub mod estimate;
 mod fields;
+mod footprint;
 mod implicit;
 mod lanczos;
 mod ledger;
@@ -10,8 +11,9 @@ mod motion;
 pub mod stability;
 
 pub use estimate::Estimate;
+pub use footprint::road_axes;
 pub use implicit::ImplicitCounts;
-pub use ledger::{Ledger, road_axes};
+pub use ledger::Ledger;
 pub use motion::Motion;
 
 pub use crate::model::areas::contact_areas;
@@ -23,6 +25,7 @@ use crate::physics::rim;
 use crate::record::{ContactNoise, NewtonRow, Sample, Snapshot};
 use crate::scene::{Drive, InitialVelocity, MeshSpec, Method, Scene, Snapshots, Stage};
 use chatter::Chatter;
+use footprint::Footprint;
 use glam::DVec3;
 use ledger::WindowEnd;
 use stability::Critical;
@@ -331,26 +334,51 @@ impl<'a> Run<'a> {
     fn window(&mut self, stage: &Stage, end: f64) -> Result<Window> {
         self.force_time = 0.0;
         let (start, spin) = (self.totals.time, self.rim[rim::SPIN]);
+        let road = self.scene.road.as_ref();
+        let (mut whole, mut footprint) = (None, Footprint::default());
         while self.totals.time < end {
-            self.advance_towards(end)?;
+            let before = self.force_time;
+            let part = self.part(end)?;
+            footprint.add(self.model, road, self.force_time - before, &part);
+            match &mut whole {
+                None => whole = Some(part),
+                Some(whole) => whole.extend(part),
+            }
         }
-        let dt = self.dt_before;
-        let next = self.motion.plan(end, dt, dt, 1)[0];
-        let window = self.engine.sample(&next)?;
-        (self.rim, self.rim_rate) = (window.rim, window.rim_rate);
-        if self.scene.road.is_some() {
+        let window = whole.expect("a window has a step");
+        if road.is_some() {
             self.chatter.add(start, end, [spin, window.rim[rim::SPIN]], &window);
         }
-        let at = WindowEnd { time: end, length: self.force_time, dt, stage: stage.name.clone() };
-        let row = self.totals.ledger.row(self.model, self.scene.road.as_ref(), &at, &window);
+        let at =
+            WindowEnd { time: end, length: self.force_time, dt: self.dt_before, stage: stage.name.clone() };
+        let row = self.totals.ledger.row(road, &at, &window, &footprint);
         let totals = &self.totals;
         let progress = Progress { stage: &stage.name, time: end, end: self.end, steps: totals.steps, totals };
         self.observer.sample(&row, &progress)?;
         Ok(window)
     }
 
-    /// Takes equal steps that would end at `end`, at most until the critical step is due to be looked at again.
-    fn advance_towards(&mut self, end: f64) -> Result<()> {
+    /// Steps on within a window that ends at `end`: to its end, or for as long as a footprint is one.
+    fn part(&mut self, end: f64) -> Result<Window> {
+        let start = self.totals.time;
+        let spin = self.rim_rate[rim::SPIN].abs().max(self.motion.rate_at(end)[rim::SPIN].abs());
+        let parts = match self.scene.road {
+            Some(_) => ((end - start) / footprint::part(&self.scene.body.mesh, spin) - 1e-9).ceil().max(1.0),
+            None => 1.0,
+        };
+        let until = if parts > 1.0 { start + (end - start) / parts } else { end };
+        while self.totals.time < until {
+            self.advance_towards(end, until)?;
+        }
+        let next = self.motion.plan(self.totals.time, self.dt_before, self.dt_before, 1)[0];
+        let window = self.engine.sample(&next)?;
+        (self.rim, self.rim_rate) = (window.rim, window.rim_rate);
+        Ok(window)
+    }
+
+    /// Takes equal steps that would end at `end`, as many as reach `until`, at most until the critical step is due to be
+    /// looked at again.
+    fn advance_towards(&mut self, end: f64, until: f64) -> Result<()> {
         if self.totals.steps >= self.refresh_at {
             self.refresh()?;
         }
@@ -358,7 +386,8 @@ impl<'a> Run<'a> {
         let length = end - start;
         let count = (length / (self.scene.safety * self.critical.dt)).ceil().max(1.0) as usize;
         let dt = length / count as f64;
-        let taken = count.min((self.refresh_at - self.totals.steps) as usize);
+        let wanted = ((until - start) / dt - 1e-6).ceil().max(1.0) as usize;
+        let taken = count.min(wanted).min((self.refresh_at - self.totals.steps) as usize);
         let steps = self.motion.plan(start, dt, self.dt_before, taken);
         self.engine.advance(&steps)?;
         self.force_time += steps.iter().map(Step::dtm).sum::<f64>();

@@ -1,6 +1,7 @@
 //! Multiplicative relaxation of overlapping element blocks (24 unknowns each).
 
-use crate::implicit::matrix::{BlockMatrix, times};
+use crate::implicit::matrix::BlockMatrix;
+use crate::physics::lanes::{Array, Lanes, Level};
 use crate::physics::tensor::Vec3;
 use rayon::prelude::*;
 
@@ -12,12 +13,13 @@ pub struct ElementBlocks {
     inverses: Vec<[f32; N * N]>,
     hexes: Vec<[u32; 8]>,
     slabs: Slabs,
+    level: Level,
 }
 
 impl ElementBlocks {
     /// Of a grid of `counts` elements, i fastest, with their nodes.
     pub fn new(hexes: Vec<[u32; 8]>, counts: [usize; 3]) -> ElementBlocks {
-        ElementBlocks { inverses: Vec::new(), hexes, slabs: Slabs::new(counts) }
+        ElementBlocks { inverses: Vec::new(), hexes, slabs: Slabs::new(counts), level: Level::detect() }
     }
 
     /// Inverts the blocks. `None`: one is singular.
@@ -35,12 +37,13 @@ impl ElementBlocks {
     /// the reverse order. The same bits whatever the number of threads.
     pub fn sweep(&self, matrix: &BlockMatrix, b: &[Vec3<f64>], x: &mut [Vec3<f64>], way: Way) {
         assert_eq!(x.len(), matrix.rows());
-        let x = Shared(x.as_mut_ptr());
+        let mut repeated: Vec<Repeated> = x.iter().map(|x| std::array::from_fn(|c| x[c % 3])).collect();
+        let shared = Shared(repeated.as_mut_ptr());
         let phase = |slabs: &[Vec<u32>]| {
             slabs.par_iter().for_each(|elements| match way {
-                Way::Forward => elements.iter().for_each(|&e| self.relax(e, matrix, b, &x)),
+                Way::Forward => elements.iter().for_each(|&e| self.relax(e, matrix, b, &shared)),
                 Way::Backward => {
-                    elements.iter().rev().for_each(|&e| self.relax(e, matrix, b, &x));
+                    elements.iter().rev().for_each(|&e| self.relax(e, matrix, b, &shared));
                 }
             });
         };
@@ -51,30 +54,98 @@ impl ElementBlocks {
         }
         .into_iter()
         .for_each(|slabs| phase(slabs));
+        for (x, r) in x.iter_mut().zip(&repeated) {
+            x.copy_from_slice(&r[..3]);
+        }
     }
 
     fn relax(&self, element: u32, matrix: &BlockMatrix, b: &[Vec3<f64>], x: &Shared) {
+        #[cfg(target_arch = "x86_64")]
+        {
+            use crate::physics::lanes::{F64x4, F64x8};
+            #[target_feature(enable = "avx2,fma")]
+            unsafe fn avx2(
+                this: &ElementBlocks,
+                element: u32,
+                matrix: &BlockMatrix,
+                b: &[Vec3<f64>],
+                x: &Shared,
+            ) {
+                this.relax_in::<F64x4>(element, matrix, b, x);
+            }
+            #[target_feature(enable = "avx512f,avx2,fma")]
+            unsafe fn avx512(
+                this: &ElementBlocks,
+                element: u32,
+                matrix: &BlockMatrix,
+                b: &[Vec3<f64>],
+                x: &Shared,
+            ) {
+                this.relax_in::<F64x8>(element, matrix, b, x);
+            }
+            // SAFETY: the level says that the machine has the instructions.
+            match self.level {
+                Level::Avx512 => return unsafe { avx512(self, element, matrix, b, x) },
+                Level::Avx2 => return unsafe { avx2(self, element, matrix, b, x) },
+                Level::Portable => {}
+            }
+        }
+        self.relax_in::<Array<f64, 2>>(element, matrix, b, x);
+    }
+
+    /// A block's nine products with the three unknowns of its column are taken lane by lane and summed over the row first.
+    #[inline(always)]
+    fn relax_in<L: Lanes<Real = f64>>(
+        &self,
+        element: u32,
+        matrix: &BlockMatrix,
+        b: &[Vec3<f64>],
+        x: &Shared,
+    ) {
         let hex = &self.hexes[element as usize];
         let mut r = [0.0f32; N];
         for (a, &n) in hex.iter().enumerate() {
-            let mut left = b[n as usize];
-            for (j, block) in matrix.row(n as usize) {
-                let ax = times(block, x.get(j));
-                (0..3).for_each(|i| left[i] -= ax[i]);
+            let n = n as usize;
+            let row = matrix.start[n]..matrix.start[n + 1];
+            let mut lanes = [L::zero(); 4];
+            let mut last = 0.0;
+            for (&j, block) in matrix.columns[row.clone()].iter().zip(&matrix.blocks[row]) {
+                let (entries, values) = (block.as_flattened().as_ptr(), x.get(j as usize));
+                for k in 0..8 / L::WIDTH {
+                    // SAFETY: a block has nine entries, and nine values stand beside each other.
+                    let (entry, value) =
+                        unsafe { (L::load(entries, k * L::WIDTH), L::load(values, k * L::WIDTH)) };
+                    lanes[k] = entry.mul_add(value, lanes[k]);
+                }
+                // SAFETY: the ninth.
+                last += block[2][2] * unsafe { *values.add(8) };
             }
-            (0..3).for_each(|i| r[3 * a + i] = left[i] as f32);
+            let mut sums = [0.0; 9];
+            for k in 0..8 / L::WIDTH {
+                // SAFETY: the first eight of nine.
+                unsafe { lanes[k].store(sums.as_mut_ptr(), k * L::WIDTH) };
+            }
+            sums[8] = last;
+            for i in 0..3 {
+                r[3 * a + i] = (b[n][i] - (sums[3 * i] + sums[3 * i + 1] + sums[3 * i + 2])) as f32;
+            }
         }
         let mut d = [0.0f32; N];
-        for (column, r) in self.inverses[element as usize].chunks_exact(N).zip(r) {
-            for (d, c) in d.iter_mut().zip(column) {
-                *d += c * r;
+        let inverse = &self.inverses[element as usize];
+        for c in 0..N {
+            for i in 0..N {
+                d[i] += inverse[c * N + i] * r[c];
             }
         }
         for (a, &n) in hex.iter().enumerate() {
-            x.add(n as usize, [0, 1, 2].map(|i| f64::from(d[3 * a + i])));
+            let d: Repeated = std::array::from_fn(|c| f64::from(d[3 * a + c % 3]));
+            x.add(n as usize, &d);
         }
     }
 }
+
+/// A node's three unknowns, three times: what the nine entries of a block are multiplied with.
+type Repeated = [f64; 9];
 
 /// The way of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,24 +186,26 @@ impl Slabs {
 }
 
 /// Values that the slabs of a phase share.
-struct Shared(*mut Vec3<f64>);
+struct Shared(*mut Repeated);
 
 // SAFETY: slabs of a phase neither write what another one reads or writes (`Slabs`), and phases follow each other.
 unsafe impl Sync for Shared {}
 
 impl Shared {
     #[inline(always)]
-    fn get(&self, n: usize) -> Vec3<f64> {
+    fn get(&self, n: usize) -> *const f64 {
         // SAFETY: n is a node of the matrix, whose rows are as many as the values (`sweep`); see above for threads.
-        unsafe { *self.0.add(n) }
+        unsafe { self.0.add(n).cast() }
     }
 
     #[inline(always)]
-    fn add(&self, n: usize, d: Vec3<f64>) {
+    fn add(&self, n: usize, d: &Repeated) {
         // SAFETY: as in `get`.
         unsafe {
             let x = &mut *self.0.add(n);
-            (0..3).for_each(|i| x[i] += d[i]);
+            for c in 0..9 {
+                x[c] += d[c];
+            }
         }
     }
 }

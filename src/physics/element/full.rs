@@ -17,7 +17,7 @@ impl Formulation for Full {
         x: &Corners<S>,
         v: &Corners<S>,
     ) -> Force<S> {
-        points::<S, L, V, G, true>(law, viscosity, class, &hex8::gradients(x), v, S::zero())
+        points::<S, L, V, G, true, false>(law, viscosity, class, &hex8::gradients(x), v, S::zero())
     }
 
     #[inline(always)]

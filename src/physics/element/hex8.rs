@@ -7,7 +7,9 @@
 use crate::physics::lanes::Lanes;
 use crate::physics::material::{Derivatives, Law};
 use crate::physics::scalar::Scalar;
-use crate::physics::tensor::{Mat3, Sym3, Vec3, add, axpy, cofactor, cross, det, dot, neg, scale, sub};
+use crate::physics::tensor::{
+    Mat3, Sym3, Vec3, add, axpy, cofactor, combined, cross, det, dot, neg, scale, sub,
+};
 use crate::scene::Lumping;
 
 /// One vector a corner, numbered as in [`crate::model::mesh`].
@@ -68,20 +70,21 @@ fn interpolate<S: Scalar>(e: &[Vec3<S>; 4]) -> [Vec3<S>; 4] {
 }
 
 #[inline(always)]
-fn edge<S: Scalar>(x: &Corners<S>, d: usize, m: usize) -> Vec3<S> {
-    let (a, b) = EDGES[d][m];
+fn edge<S: Scalar, const D: usize, const M: usize>(x: &Corners<S>) -> Vec3<S> {
+    const { assert!(D < 3 && M < 4) };
+    let (a, b) = EDGES[D][M];
     sub(x[b], x[a])
 }
 
 #[inline(always)]
-fn direction<S: Scalar>(x: &Corners<S>, d: usize) -> [Vec3<S>; 4] {
-    interpolate(&[edge(x, d, 0), edge(x, d, 1), edge(x, d, 2), edge(x, d, 3)])
+fn direction<S: Scalar, const D: usize>(x: &Corners<S>) -> [Vec3<S>; 4] {
+    interpolate(&[edge::<S, D, 0>(x), edge::<S, D, 1>(x), edge::<S, D, 2>(x), edge::<S, D, 3>(x)])
 }
 
 /// A = dx/dxi on the Gauss lines.
 #[inline(always)]
 pub fn gradients<S: Scalar>(x: &Corners<S>) -> LineColumns<S> {
-    [direction(x, 0), direction(x, 1), direction(x, 2)]
+    [direction::<S, 0>(x), direction::<S, 1>(x), direction::<S, 2>(x)]
 }
 
 /// A at point q.
@@ -91,13 +94,15 @@ pub fn at<S: Scalar>(columns: &LineColumns<S>, q: usize) -> Mat3<S> {
     [columns[0][i], columns[1][j], columns[2][k]]
 }
 
-/// Adds the force matrix of point q to the lines.
+/// Adds the force matrix of point q to the lines; points are taken in ascending order, and the first one on a line starts
+/// its sum.
 #[inline(always)]
 pub fn accumulate<S: Scalar>(lines_force: &mut LineColumns<S>, q: usize, g: &Mat3<S>) {
-    let at = lines(q);
-    for d in 0..3 {
-        lines_force[d][at[d]] = add(lines_force[d][at[d]], g[d]);
-    }
+    let [i, j, k] = lines(q);
+    let [x, y, z] = lines_force;
+    x[i] = if q & 1 == 0 { g[0] } else { add(x[i], g[0]) };
+    y[j] = if q >> 1 & 1 == 0 { g[1] } else { add(y[j], g[1]) };
+    z[k] = if q >> 2 & 1 == 0 { g[2] } else { add(z[k], g[2]) };
 }
 
 /// Volume of an element, exact for trilinear maps: three triple products of differences of corners (Grandy 1997).
@@ -114,22 +119,19 @@ pub fn volume<S: Scalar>(x: &Corners<S>) -> S {
 /// Corner forces sum_q sum_d G_d dN_a/dxi_d from the sums on the lines.
 #[inline(always)]
 pub fn scatter<S: Scalar>(lines_force: &LineColumns<S>) -> Corners<S> {
-    let mut f = [[S::zero(); 3]; 8];
-    for d in 0..3 {
-        let edges = interpolate(&lines_force[d]);
-        for m in 0..4 {
-            let (a, b) = EDGES[d][m];
-            if d == 0 {
-                // Every corner ends one edge of each direction: the first one starts its sum.
-                f[a] = neg(edges[m]);
-                f[b] = edges[m];
-            } else {
-                f[a] = sub(f[a], edges[m]);
-                f[b] = add(f[b], edges[m]);
-            }
-        }
-    }
-    f
+    let [x, y, z] =
+        [interpolate(&lines_force[0]), interpolate(&lines_force[1]), interpolate(&lines_force[2])];
+    // Every corner ends one edge of each direction (`EDGES`).
+    [
+        neg(add(x[0], add(y[0], z[0]))),
+        sub(x[0], add(y[1], z[1])),
+        add(x[1], sub(y[1], z[3])),
+        sub(sub(y[0], x[1]), z[2]),
+        sub(sub(z[0], x[2]), y[2]),
+        add(x[2], sub(z[1], y[3])),
+        add(x[3], add(y[3], z[3])),
+        sub(add(y[2], z[2]), x[3]),
+    ]
 }
 
 /// Invariants and the products the force needs at a point.
@@ -143,10 +145,10 @@ pub struct Kinematics<S> {
     pub i2: S,
 }
 
-/// I1 and, where the law wants it, I2 of C = J0^-T A^T A J0^-1.
+/// I1 and, where the law wants it, I2 of C = J0^-T A^T A J0^-1. `EXTRUDED`: M couples eta with neither xi nor zeta.
 #[inline(always)]
-pub fn kinematics<S: Scalar, L: Law<S>>(a: &Mat3<S>, m: &Sym3<S>) -> Kinematics<S> {
-    let am = m.left_multiplied(a);
+pub fn kinematics<S: Scalar, L: Law<S>, const EXTRUDED: bool>(a: &Mat3<S>, m: &Sym3<S>) -> Kinematics<S> {
+    let am = if EXTRUDED { m.left_multiplied_in_plane(a) } else { m.left_multiplied(a) };
     if !L::HAS_I2 {
         let i1 = dot(a[0], am[0]) + dot(a[1], am[1]) + dot(a[2], am[2]);
         return Kinematics { am, gram_m: [[S::zero(); 3]; 3], i1, i2: S::zero() };
@@ -167,8 +169,8 @@ fn gram_column<S: Scalar>(a: &Mat3<S>, c: Vec3<S>) -> Vec3<S> {
 }
 
 /// Force matrix at a point, columns G_d with f_a = sum_d G_d dN_a/dxi_d:
-/// dV (2 W1 A M + 2 W2 (I1 A M - A M A^T A M)) + weight (WJ + p) cof A, where dV = weight det J0. With the mean gradient
-/// in place of a point's, dV and weight are 1.
+/// dV (2 W1 A M + 2 W2 (I1 A M - A M A^T A M)) + (weight (WJ + p) + S) cof A, where dV = weight det J0 and S, if there is
+/// any, is weight times the viscous stress. With the mean gradient in place of a point's, dV and weight are 1.
 #[inline(always)]
 pub fn force_matrix<S: Scalar, L: Law<S>>(
     k: &Kinematics<S>,
@@ -177,14 +179,14 @@ pub fn force_matrix<S: Scalar, L: Law<S>>(
     cof: &Mat3<S>,
     dv: S,
     weight: S,
+    viscous: Option<&Mat3<S>>,
 ) -> Mat3<S> {
     let two = dv + dv;
-    let volumetric = (d.wj + pressure) * weight;
-    let mut g = [[S::zero(); 3]; 3];
+    let mut g = pushed(cof, (d.wj + pressure) * weight, viscous);
     if !L::HAS_I2 {
         let c1 = two * d.w1;
         for c in 0..3 {
-            g[c] = axpy(k.am[c], c1, scale(cof[c], volumetric));
+            g[c] = axpy(k.am[c], c1, g[c]);
         }
         return g;
     }
@@ -193,9 +195,26 @@ pub fn force_matrix<S: Scalar, L: Law<S>>(
     for c in 0..3 {
         let n = k.gram_m[c];
         let amn = axpy(k.am[0], n[0], axpy(k.am[1], n[1], scale(k.am[2], n[2])));
-        g[c] = axpy(amn, -c2, axpy(k.am[c], c1, scale(cof[c], volumetric)));
+        g[c] = axpy(amn, -c2, axpy(k.am[c], c1, g[c]));
     }
     g
+}
+
+/// (pressure I + S) cof A.
+#[inline(always)]
+fn pushed<S: Scalar>(cof: &Mat3<S>, pressure: S, stress: Option<&Mat3<S>>) -> Mat3<S> {
+    let Some(stress) = stress else {
+        return [scale(cof[0], pressure), scale(cof[1], pressure), scale(cof[2], pressure)];
+    };
+    let mut all = *stress;
+    all[0][0] += pressure;
+    all[1][1] += pressure;
+    all[2][2] += pressure;
+    [
+        combined(&all, cof[0][0], cof[0][1], cof[0][2]),
+        combined(&all, cof[1][0], cof[1][1], cof[1][2]),
+        combined(&all, cof[2][0], cof[2][1], cof[2][2]),
+    ]
 }
 
 /// Reference geometry shared by all elements that differ by a rigid motion only.
@@ -317,6 +336,16 @@ impl<N: Lanes> Shape<N> for LaneShapes<'_, N::Real> {
 }
 
 impl Class<f64> {
+    /// Whether the element is a plane figure extruded along eta, as those of a ring, whose width that is, or of a block: M is
+    /// zero, up to round-off, where eta meets xi or zeta.
+    pub fn is_extruded(&self) -> bool {
+        let none = |m: &Sym3<f64>| {
+            let small = 1e-14 * (m.xx.max(m.zz) * m.yy).sqrt();
+            m.xy.abs() <= small && m.yz.abs() <= small
+        };
+        self.metric.iter().all(none)
+    }
+
     /// Geometry of an element with reference corners `X`; `hourglass_modulus` = c G and `hourglass_eta` = c eta.
     /// `None` if det J0 is not positive at a point or a corner (an inside-out element).
     pub fn new(X: &Corners<f64>, hourglass_modulus: f64, hourglass_eta: f64) -> Option<Self> {

@@ -1,5 +1,4 @@
 use super::hex8::{self, Corners, HOURGLASS, Shape};
-use super::q1p0::sum;
 use super::{Energy, Force, Formulation};
 use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::Scalar;
@@ -27,25 +26,27 @@ impl Formulation for UniformGradient {
         let f = mean_gradient(class, x);
         let cof = cofactor(&f);
         let j = dot(f[0], cof[0]);
-        let k = hex8::kinematics::<S, L>(&f, &identity());
+        let k = hex8::kinematics::<S, L, true>(&f, &identity());
         let d = law.first_piola(k.i1, k.i2, j);
-        let mut p = hex8::force_matrix::<S, L>(&k, &d, law.dU(j), &cof, S::one(), S::one());
         let mut hourglass = hourglass_modes(class, x, &f);
         for q in &mut hourglass {
             *q = scale(*q, class.hourglass_stiffness());
         }
         let mut power = S::zero();
-        if V::ON {
+        let one = S::one();
+        let p = if !V::ON {
+            hex8::force_matrix::<S, L>(&k, &d, law.dU(j), &cof, one, one, None)
+        } else {
             let rate = mean_gradient(class, v);
-            let (viscous, density) = viscosity.stress(&rate, &cof, j, S::one());
-            p = sum(p, viscous);
+            let (viscous, density) = viscosity.stress(&rate, &cof, j, one);
             power += density * class.volume();
             let rates = hourglass_modes(class, v, &rate);
             for h in 0..4 {
                 hourglass[h] = axpy(rates[h], class.hourglass_viscosity(), hourglass[h]);
                 power += class.hourglass_viscosity() * dot(rates[h], rates[h]);
             }
-        }
+            hex8::force_matrix::<S, L>(&k, &d, law.dU(j), &cof, one, one, Some(&viscous))
+        };
         Force { f: corner_forces(class, &p, &hourglass), min_j: j, viscous_power: power }
     }
 
@@ -53,7 +54,7 @@ impl Formulation for UniformGradient {
     fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
         let f = mean_gradient(class, x);
         let j = det(&f);
-        let k = hex8::kinematics::<S, L>(&f, &identity());
+        let k = hex8::kinematics::<S, L, true>(&f, &identity());
         let mut q2 = S::zero();
         let modes = hourglass_modes(class, x, &f);
         for q in &modes {

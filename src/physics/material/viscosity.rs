@@ -1,5 +1,5 @@
 use crate::physics::scalar::Scalar;
-use crate::physics::tensor::{Mat3, Vec3, combined, dot, scale};
+use crate::physics::tensor::{Mat3, Vec3, combined, dot};
 
 /// A viscous stress added to any law, or nothing.
 pub trait Viscosity<S: Scalar>: Copy + Send + Sync + 'static {
@@ -8,8 +8,8 @@ pub trait Viscosity<S: Scalar>: Copy + Send + Sync + 'static {
     fn new(eta: f64) -> Self;
     /// eta [Pa s].
     fn eta(&self) -> S;
-    /// Columns weight sigma_v cof(A)_d of the force matrix and the power weight sigma_v : L det A, from A's rate, its
-    /// cofactor and determinant.
+    /// weight sigma_v and the power weight sigma_v : L det A, from A's rate, its cofactor and determinant; what sigma_v adds
+    /// to the force matrix are the columns weight sigma_v cof(A)_d.
     fn stress(&self, a_dot: &Mat3<S>, cof: &Mat3<S>, det: S, weight: S) -> (Mat3<S>, S);
 }
 
@@ -52,27 +52,24 @@ impl<S: Scalar> Viscosity<S> for KelvinVoigt<S> {
 
     #[inline(always)]
     fn stress(&self, a_dot: &Mat3<S>, cof: &Mat3<S>, det: S, weight: S) -> (Mat3<S>, S) {
-        let (r, eta) = (S::one() / det, self.eta * weight);
-        let l = [row(a_dot, cof, r, 0), row(a_dot, cof, r, 1), row(a_dot, cof, r, 2)];
+        // L det A, whose factor goes to eta.
+        let l = [row(a_dot, cof, 0), row(a_dot, cof, 1), row(a_dot, cof, 2)];
+        let eta = self.eta * weight / det;
         let trace = l[0][0] + l[1][1] + l[2][2];
         let mean = (trace + trace) * S::from_f64(1.0 / 3.0);
-        let (xy, xz, yz) = (l[0][1] + l[1][0], l[0][2] + l[2][0], l[1][2] + l[2][1]);
-        let xx = l[0][0] + l[0][0] - mean;
-        let yy = l[1][1] + l[1][1] - mean;
-        let zz = l[2][2] + l[2][2] - mean;
-        let sigma = [scale([xx, xy, xz], eta), scale([xy, yy, yz], eta), scale([xz, yz, zz], eta)];
-        let power = dot(sigma[0], l[0]) + dot(sigma[1], l[1]) + dot(sigma[2], l[2]);
-        let g = [
-            combined(&sigma, cof[0][0], cof[0][1], cof[0][2]),
-            combined(&sigma, cof[1][0], cof[1][1], cof[1][2]),
-            combined(&sigma, cof[2][0], cof[2][1], cof[2][2]),
-        ];
-        (g, power * det)
+        let [xy, xz, yz] = [l[0][1] + l[1][0], l[0][2] + l[2][0], l[1][2] + l[2][1]];
+        let [sxy, sxz, syz] = [eta * xy, eta * xz, eta * yz];
+        let sxx = eta * (l[0][0] + l[0][0] - mean);
+        let syy = eta * (l[1][1] + l[1][1] - mean);
+        let szz = eta * (l[2][2] + l[2][2] - mean);
+        let normal = dot([sxx, syy, szz], [l[0][0], l[1][1], l[2][2]]);
+        let power = normal + dot([sxy, sxz, syz], [xy, xz, yz]);
+        ([[sxx, sxy, sxz], [sxy, syy, syz], [sxz, syz, szz]], power)
     }
 }
 
-/// Row i of L = sum_d a_dot_d (x) cof_d / det.
+/// Row i of L det A = sum_d a_dot_d (x) cof_d.
 #[inline(always)]
-fn row<S: Scalar>(a_dot: &Mat3<S>, cof: &Mat3<S>, r: S, i: usize) -> Vec3<S> {
-    scale(combined(cof, a_dot[0][i], a_dot[1][i], a_dot[2][i]), r)
+fn row<S: Scalar>(a_dot: &Mat3<S>, cof: &Mat3<S>, i: usize) -> Vec3<S> {
+    combined(cof, a_dot[0][i], a_dot[1][i], a_dot[2][i])
 }
