@@ -7,7 +7,7 @@ use hexroll::cpu::{self, Precision};
 use hexroll::model::Model;
 use hexroll::record::{Sample, Snapshot};
 use hexroll::run::{self, Observer, Progress, Totals};
-use hexroll::scene::{Drive, InitialVelocity, Method, RimMotion, Scene, Snapshots, Stage};
+use hexroll::scene::{Drive, InitialVelocity, RimMotion, Scene, Snapshots, Stage};
 
 #[derive(Default)]
 struct Rows(Vec<Sample>);
@@ -28,26 +28,12 @@ fn scene(eta: f64, duration: f64) -> Scene {
     scene.body.viscosity = (eta > 0.0).then_some(eta);
     scene.output.sample = 1e-3;
     scene.output.snapshots = Snapshots::None;
-    let template = Stage { rim: common::HELD, ..scene.stages[0].clone() };
-    let down = Drive::Displacement { to: -2.2e-3, ramp: 0.02 };
-    let press = Stage {
-        name: "press".into(),
-        method: Method::QuasiStatic { kinetic_ratio: 1e-8, residual: 1e-4 },
-        duration: 0.2,
-        mass_damping: 3000.0,
-        initial_velocity: None,
-        rim: RimMotion { z: down, ..common::HELD },
-        ..template.clone()
-    };
+    let press = common::press(Drive::Displacement { to: -2.2e-3, ramp: 0.02 });
     let at = |to: f64| Drive::Velocity { to, ramp: 0.0 };
     let roll = Stage {
-        name: "roll".into(),
-        method: Method::Explicit,
-        duration,
-        mass_damping: 0.0,
         initial_velocity: Some(InitialVelocity::Rim),
         rim: RimMotion { x: at(2.59), spin: at(70.0), ..common::HELD },
-        ..template
+        ..common::explicit("roll", duration)
     };
     scene.stages = if duration > 0.0 { vec![press, roll] } else { vec![press] };
     scene

@@ -15,7 +15,8 @@ use hexroll::scene::Law;
 const IDENTITY: Sym3<f64> = Sym3 { xx: 1.0, yy: 1.0, zz: 1.0, xy: 0.0, xz: 0.0, yz: 0.0 };
 
 fn energy_of<L: Material<f64>>(choice: &Law, F: &Mat3<f64>) -> f64 {
-    let (law, k, j) = (L::new(choice), hex8::kinematics::<f64, MooneyRivlin<f64>, false>(F, &IDENTITY), det(F));
+    let (law, k, j) =
+        (L::new(choice), hex8::kinematics::<f64, MooneyRivlin<f64>, false>(F, &IDENTITY), det(F));
     law.psi(k.i1, k.i2, j) + law.U(j)
 }
 
