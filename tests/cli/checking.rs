@@ -57,9 +57,9 @@ fn the_wave_speed_and_step_are_those_of_the_material() {
     // The assembled wheel, rim held, has 1.395e-5 s; single elements are below that, but not by half.
     let bound = number("/steps/element_bound_s");
     assert!((0.7e-5..1.395e-5).contains(&bound), "{bound}");
-    assert!((number("/steps/dt_s") / bound - 0.9).abs() < 1e-12);
+    assert!((number("/steps/dt_s") / bound - 0.95).abs() < 1e-12);
     // Ten increments of statics, then explicit steps.
-    let at_most = 10.0 + (0.1 / (0.9 * bound)).ceil();
+    let at_most = 10.0 + (0.1 / (0.95 * bound)).ceil();
     assert_eq!(number("/steps/total"), at_most);
     assert!(number("/estimates/0/updates_per_s") > 0.0);
 }
