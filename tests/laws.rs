@@ -15,15 +15,16 @@ use hexroll::scene::Law;
 const IDENTITY: Sym3<f64> = Sym3 { xx: 1.0, yy: 1.0, zz: 1.0, xy: 0.0, xz: 0.0, yz: 0.0 };
 
 fn energy_of<L: Material<f64>>(choice: &Law, F: &Mat3<f64>) -> f64 {
-    let (law, k, j) = (L::new(choice), hex8::kinematics::<f64, MooneyRivlin<f64>>(F, &IDENTITY), det(F));
+    let (law, k, j) =
+        (L::new(choice), hex8::kinematics::<f64, MooneyRivlin<f64>, false>(F, &IDENTITY), det(F));
     law.psi(k.i1, k.i2, j) + law.U(j)
 }
 
 /// Columns of P, by the element's own assembly of it.
 fn piola_of<L: Material<f64>>(choice: &Law, F: &Mat3<f64>) -> Mat3<f64> {
-    let (law, k, j) = (L::new(choice), hex8::kinematics::<f64, L>(F, &IDENTITY), det(F));
+    let (law, k, j) = (L::new(choice), hex8::kinematics::<f64, L, false>(F, &IDENTITY), det(F));
     let d = law.first_piola(k.i1, k.i2, j);
-    hex8::force_matrix::<f64, L>(&k, &d, law.dU(j), &cofactor(F), 1.0, 1.0)
+    hex8::force_matrix::<f64, L>(&k, &d, law.dU(j), &cofactor(F), 1.0, 1.0, None)
 }
 
 fn energy(choice: &Law, F: &Mat3<f64>) -> f64 {
