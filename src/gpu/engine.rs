@@ -160,7 +160,8 @@ impl GpuEngine {
             window_steps: 0,
             step_contact: Vec::new(),
             lent: None,
-            shape: fits,
+            // A software adapter gives a work group one of its processors, and the passes all of them.
+            shape: fits.filter(|_| !gpu.report.software),
             fits,
             steps_per_submit: 8,
             fixed_submits: false,
@@ -192,8 +193,8 @@ impl GpuEngine {
         self.steps_per_submit = steps.unwrap_or(8).clamp(1, self.counts.contact_slots());
     }
 
-    /// Whether small meshes are kept in one work group's memory, as they are at first where they fit. Results agree to
-    /// rounding: forces are summed in another order.
+    /// Whether small meshes are kept in one work group's memory. At first they are, where they fit, but on software
+    /// adapters. Results agree to rounding: forces are summed in another order.
     ///
     /// # Errors
     /// The stage's programs cannot be composed again.

@@ -38,8 +38,11 @@ pub fn engine(gpu: &Gpu, who: Who, model: &Model, scene: &Scene) -> Box<dyn Engi
     engine
 }
 
+/// With small meshes in one work group, as on real adapters.
 pub fn on_device(gpu: &Gpu, model: &Model, scene: &Scene, plus: bool) -> GpuEngine {
-    GpuEngine::new(gpu, model, scene, plus).unwrap_or_else(|e| panic!("{e}"))
+    let mut engine = GpuEngine::new(gpu, model, scene, plus).unwrap_or_else(|e| panic!("{e}"));
+    engine.set_resident(true).unwrap();
+    engine
 }
 
 /// Numbers in -1..1, the same in every run.
