@@ -71,7 +71,7 @@ fn compare(gpu: &Gpu, stem: &str, engines: &[Who], verdict: Verdict, tolerance: 
 
 /// Viscosity leaves the tone of a coarse mesh, 3.5 % of the load: below the limit.
 pub fn viscous(gpu: &Gpu) {
-    compare(gpu, "lat100_straight_viscous", &[Who::Gpu, Who::Plus], Verdict::Smooth, 0.003, 0.005);
+    compare(gpu, "lat100_straight_viscous", &[Who::Gpu, Who::Plus], Verdict::Smooth, 0.003, 0.001);
 }
 
 /// Without it friction amplifies rounding, so that single steps differ.
