@@ -146,7 +146,7 @@ impl<T: Real> Scalar for Counted<T> {
     fn recip_cbrt(self) -> Self {
         tally(MUL);
         tally(ADD);
-        recip_cbrt_from(Counted(self.0.recip_cbrt_guess()), self, T::CBRT_STEPS)
+        recip_cbrt_from(Counted(self.0.recip_cbrt_guess()), self, T::SINGLE)
     }
 
     fn ln(self) -> Self {

@@ -1,7 +1,8 @@
 //! The element pass, several elements at a time: forces onto the node lines.
 
 use super::family::{LawFamily, ViscosityFamily};
-use super::layout::{Item, Loose, Row};
+use super::layout::{Item, Loose};
+use super::rows::{Batch, Row, Rows};
 use super::state::{Aligned, View};
 use crate::model::Model;
 use crate::model::chains::{BACK, FRONT};
@@ -97,44 +98,49 @@ impl<T: Real> Copied<T> {
     }
 }
 
-/// Where vectors of corners are: of rows on their lines, of loose elements where they were copied to.
-struct Corner<T> {
-    back: [usize; 4],
-    front: [usize; 4],
-    x: [*const T; 3],
-    v: [*const T; 3],
-}
-
-impl<T: Real> Corner<T> {
-    fn of_row(row: &Row, view: &View<T>) -> Self {
-        let front = row.x.map(|x| x + 1);
-        Corner { back: row.x, front, x: view.x.map(|p| p.cast_const()), v: view.v.map(|p| p.cast_const()) }
-    }
-
-    fn of_copy(copy: &Copied<T>, width: usize) -> Self {
-        let pointers = |field: &[[T; 8 * WIDEST]; 3]| [0, 1, 2].map(|d| field[d].as_ptr());
-        Corner {
-            back: BACK.map(|c| c * width),
-            front: FRONT.map(|c| c * width),
-            x: pointers(&copy.x),
-            v: pointers(&copy.v),
+/// Corners of loose elements, where they were copied to.
+#[inline(always)]
+unsafe fn copied_corners<N: Lanes>(field: &[[N::Real; 8 * WIDEST]; 3]) -> Corners<N> {
+    let mut x = [[N::zero(); 3]; 8];
+    for c in 0..8 {
+        for d in 0..3 {
+            x[c][d] = unsafe { N::load(field[d].as_ptr(), c * N::WIDTH) };
         }
     }
+    x
+}
 
-    /// The corners of the batch that starts at element `at`.
-    #[inline(always)]
-    unsafe fn load<N: Lanes<Real = T>>(&self, field: &[*const T; 3], at: usize) -> Corners<N> {
-        let mut x = [[N::zero(); 3]; 8];
+/// Corners of a batch: vectors of the lines of its row and, in the lanes behind its last element, of the next row's.
+#[inline(always)]
+unsafe fn row_corners<N: Lanes>(rows: &Rows, batch: &Batch, field: &[*mut N::Real; 3]) -> Corners<N> {
+    let mut x = [[N::zero(); 3]; 8];
+    unsafe {
+        let row = rows.rows.get_unchecked(batch.row);
         for k in 0..4 {
             for d in 0..3 {
-                unsafe {
-                    x[BACK[k]][d] = N::load(field[d], self.back[k] + at);
-                    x[FRONT[k]][d] = N::load(field[d], self.front[k] + at);
+                x[BACK[k]][d] = N::load(field[d], row.x[k] + batch.at);
+                x[FRONT[k]][d] = N::load(field[d], row.x[k] + batch.at + 1);
+            }
+        }
+        if batch.next > 0 {
+            let row = rows.rows.get_unchecked(batch.row + 1);
+            let mask = next_lanes(batch);
+            for k in 0..4 {
+                for d in 0..3 {
+                    let from = field[d].wrapping_add(row.x[k]).wrapping_sub(batch.lanes);
+                    x[BACK[k]][d] = x[BACK[k]][d].load_over(from, mask);
+                    x[FRONT[k]][d] = x[FRONT[k]][d].load_over(from.wrapping_add(1), mask);
                 }
             }
         }
-        x
     }
+    x
+}
+
+/// Lanes of a batch that are elements of the next row.
+#[inline(always)]
+fn next_lanes(batch: &Batch) -> u32 {
+    first(batch.lanes + batch.next) & !first(batch.lanes)
 }
 
 /// Reference geometry of a batch's lanes.
@@ -161,14 +167,10 @@ unsafe fn forces_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
     let viscous = <V::Viscosity<N> as Viscosity<N>>::ON;
     let item = &elements.items[item];
     let mut copy = None;
-    let corner = match item {
-        Item::Row(row) => Corner::of_row(row, view),
-        Item::Loose(loose) => {
-            let copy = copy.insert(Copied::none());
-            unsafe { copy.read(loose, view, N::WIDTH, viscous) };
-            Corner::of_copy(copy, N::WIDTH)
-        }
-    };
+    if let Item::Loose(loose) = item {
+        let copy = copy.insert(Copied::none());
+        unsafe { copy.read(loose, view, N::WIDTH, viscous) };
+    }
     let mut failed = Failed(None);
     let mut carry = [[N::zero(); 3]; 4];
     let mut power_sum = N::zero();
@@ -178,11 +180,21 @@ unsafe fn forces_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
         let count = N::WIDTH.min(all - at);
         unsafe {
             let shape = shape_at::<N>(elements, shape);
-            let x = corner.load::<N>(&corner.x, at);
-            let v = if viscous { corner.load::<N>(&corner.v, at) } else { [[N::zero(); 3]; 8] };
+            let still = [[N::zero(); 3]; 8];
+            let (x, v) = match (item, &copy) {
+                (Item::Rows(rows), _) => {
+                    let batch = rows.batches.get_unchecked(b);
+                    let v = if viscous { row_corners::<N>(rows, batch, &view.v) } else { still };
+                    (row_corners::<N>(rows, batch, &view.x), v)
+                }
+                (Item::Loose(_), Some(copy)) => (copied_corners::<N>(&copy.x), copied_corners::<N>(&copy.v)),
+                (Item::Loose(_), None) => (still, still),
+            };
             let force = F::force(&law, &viscosity, &shape, &x, &v);
             match (item, &mut copy) {
-                (Item::Row(row), _) => add_to_row(row, view, at, count, &force.f, &mut carry),
+                (Item::Rows(rows), _) => {
+                    add_to_rows(rows, rows.batches.get_unchecked(b), view, &force.f, &mut carry);
+                }
                 (Item::Loose(_), Some(copy)) => {
                     for c in 0..8 {
                         for d in 0..3 {
@@ -203,10 +215,8 @@ unsafe fn forces_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
         }
     }
     unsafe {
-        match (item, &copy) {
-            (Item::Row(row), _) => end_of_row(row, view, &carry),
-            (Item::Loose(loose), Some(copy)) => copy.add(loose, view, N::WIDTH),
-            (Item::Loose(_), None) => {}
+        if let (Item::Loose(loose), Some(copy)) = (item, &copy) {
+            copy.add(loose, view, N::WIDTH);
         }
         if viscous {
             (power_sum * N::from_f64(power.weight)).add_to(power.sums);
@@ -215,19 +225,44 @@ unsafe fn forces_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
     failed
 }
 
-/// Adds a batch's forces to the lines of its row.
+/// Adds a batch's forces to the lines of its row and of the next; `carry`: what the elements in the lanes of the batch before
+/// give their front corners.
+#[inline(always)]
+unsafe fn add_to_rows<N: Lanes>(
+    rows: &Rows,
+    batch: &Batch,
+    view: &View<N::Real>,
+    f: &Corners<N>,
+    carry: &mut [Vec3<N>; 4],
+) {
+    unsafe {
+        let row = rows.rows.get_unchecked(batch.row);
+        add_to_row(row, view, batch, f, carry);
+        if batch.at + batch.lanes < row.count {
+            return;
+        }
+        end_of_row(row, view, batch.lanes, carry);
+        if batch.next > 0 {
+            start_of_row(rows.rows.get_unchecked(batch.row + 1), view, batch, f);
+        } else {
+            *carry = [[N::zero(); 3]; 4];
+        }
+    }
+}
+
+/// Adds the forces of the lanes on a row to its lines.
 #[inline(always)]
 unsafe fn add_to_row<N: Lanes>(
     row: &Row,
     view: &View<N::Real>,
-    at: usize,
-    count: usize,
+    batch: &Batch,
     f: &Corners<N>,
     carry: &mut [Vec3<N>; 4],
 ) {
+    let count = batch.lanes;
     for k in 0..4 {
         for d in 0..3 {
-            let to = row.f[k] + at;
+            let to = row.f[k] + batch.at;
             let (mut back, front) = (f[BACK[k]][d], f[FRONT[k]][d]);
             if count < N::WIDTH {
                 back = back.choose(N::zero(), first(count));
@@ -248,23 +283,44 @@ unsafe fn add_to_row<N: Lanes>(
     }
 }
 
-/// What the last element gives its front corners: to the first nodes of a closed row, else to a node more.
+/// What the last element of a row, in lane `lanes` - 1 of `carry`, gives its front corners: to the first nodes of a closed
+/// row, else to a node more, which has its force already unless the batch is full.
 #[inline(always)]
-unsafe fn end_of_row<N: Lanes>(row: &Row, view: &View<N::Real>, carry: &[Vec3<N>; 4]) {
-    let all = row.elements.len();
+unsafe fn end_of_row<N: Lanes>(row: &Row, view: &View<N::Real>, lanes: usize, carry: &[Vec3<N>; 4]) {
     for k in 0..4 {
         for d in 0..3 {
             unsafe {
                 if row.closed {
                     let start = view.f[d].add(row.f[k]);
-                    *start += carry[k][d].lane((all - 1) % N::WIDTH);
-                } else if all.is_multiple_of(N::WIDTH) {
+                    *start += carry[k][d].lane(lanes - 1);
+                } else if lanes == N::WIDTH {
                     let mut last = N::zero().moved_up(carry[k][d]);
                     if row.add[k] {
-                        last += N::load(view.f[d], row.f[k] + all);
+                        last += N::load(view.f[d], row.f[k] + row.count);
                     }
-                    last.store(view.f[d], row.f[k] + all);
+                    last.store(view.f[d], row.f[k] + row.count);
                 }
+            }
+        }
+    }
+}
+
+/// Adds the forces of the lanes on the next row to the start of its lines, whose first nodes have nothing from a lane before.
+/// What the lines before have in those lanes is left alone.
+#[inline(always)]
+unsafe fn start_of_row<N: Lanes>(row: &Row, view: &View<N::Real>, batch: &Batch, f: &Corners<N>) {
+    let mask = next_lanes(batch);
+    let behind = mask & !(1 << batch.lanes);
+    for k in 0..4 {
+        for d in 0..3 {
+            let to = view.f[d].wrapping_add(row.f[k]).wrapping_sub(batch.lanes);
+            let front = f[FRONT[k]][d].moved_up(N::zero()).choose(N::zero(), behind);
+            let mut sum = f[BACK[k]][d] + front;
+            unsafe {
+                if row.add[k] {
+                    sum += N::zero().load_over(to, mask);
+                }
+                sum.store_where(to, mask);
             }
         }
     }

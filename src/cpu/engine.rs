@@ -13,7 +13,7 @@ use crate::model::mesh::Mesh;
 use crate::model::{Model, areas, frame};
 use crate::physics::friction::AnyFriction;
 use crate::physics::lanes::{Level, WIDEST};
-use crate::physics::node::{Loads, StepSize};
+use crate::physics::node::{Loads, Prediction, StepSize};
 use crate::physics::rim::{self, Coordinates};
 use crate::physics::road::Plane;
 use crate::physics::scalar::Real;
@@ -214,9 +214,12 @@ where
         let s = T::from_f64;
         let (start, end) = (rim::rotation(before), rim::rotation(q));
         let weights = if probe { [0.5 * step.dt_before, 0.0] } else { [0.5 * step.dtm(); 2] };
+        let size = StepSize { dt: s(step.dt), dtm: s(step.dtm()) };
+        let loads = Loads { gravity: self.gravity, alpha: s(self.setup.mass_damping) };
         Conditions {
-            step: StepSize { dt: s(step.dt), dtm: s(step.dtm()) },
-            loads: Loads { gravity: self.gravity, alpha: s(self.setup.mass_damping) },
+            step: size,
+            loads,
+            prediction: Prediction::new(&loads, size),
             road: self.road.map(|Road::Plane { point, normal, velocity }| {
                 Plane::new(point, normal, velocity, self.frame)
             }),

@@ -3,12 +3,14 @@
 //!
 //! A row is a chain of elements along xi; its corners lie on four node lines. Lane l of a batch reads entry i + l of a
 //! line for the corners xi = -1 and entry i + l + 1 for those xi = +1: no indices. A closed line (around a ring) keeps
-//! a copy of its first node behind its last one. Elements in no such chain are taken lane by lane ([`Loose`]).
+//! a copy of its first node behind its last one. Batches run on from a row into the next ([`Rows`]). Elements in no such
+//! chain are taken lane by lane ([`Loose`]).
 //!
 //! Forces are summed line by line into *slots*: one copy of the line for every group of rows that touches it, in
 //! which the group's rows are added in order. A node's force is the sum of its slots, first to last: the same bits
 //! however the groups are shared out among threads.
 
+use super::rows::{Row, Rows, runs};
 use crate::model::Model;
 use crate::model::chains::{BACK, Chain, FRONT, chains};
 use crate::physics::lanes::WIDEST;
@@ -19,21 +21,6 @@ const MOST_GROUPS: usize = 256;
 const LEAST_ELEMENTS: usize = 40;
 /// Nodes of a line of nodes in no row, in batches: the size of a typical line.
 const LOOSE_BATCHES: usize = 8;
-
-/// A chain of elements on four node lines.
-#[derive(Debug, Clone)]
-pub struct Row {
-    pub elements: Vec<u32>,
-    pub closed: bool,
-    /// Lines of the corners 0-1, 3-2, 4-5, 7-6: where they start among the nodes, and among the forces.
-    pub x: [usize; 4],
-    pub f: [usize; 4],
-    /// Whether the slot holds forces of an earlier row already.
-    pub add: [bool; 4],
-    /// Entry of the table of shapes, by batch.
-    pub shapes: Vec<u32>,
-    lines: [usize; 4],
-}
 
 /// At most as many elements as there are lanes, with nothing in common.
 #[derive(Debug, Clone)]
@@ -48,14 +35,14 @@ pub struct Loose {
 /// What the element pass takes at a time.
 #[derive(Debug, Clone)]
 pub enum Item {
-    Row(Row),
+    Rows(Rows),
     Loose(Box<Loose>),
 }
 
 impl Item {
     pub fn elements(&self) -> &[u32] {
         match self {
-            Item::Row(row) => &row.elements,
+            Item::Rows(rows) => &rows.elements,
             Item::Loose(loose) => &loose.elements,
         }
     }
@@ -63,7 +50,7 @@ impl Item {
     /// Entries of the table of shapes, by batch.
     pub fn shapes(&self) -> &[u32] {
         match self {
-            Item::Row(row) => &row.shapes,
+            Item::Rows(rows) => &rows.shapes,
             Item::Loose(loose) => std::slice::from_ref(&loose.shape),
         }
     }
@@ -91,6 +78,8 @@ pub struct Line {
     /// Forces come lane by lane: the slots must be zero before a step.
     pub loose: bool,
     pub has_rim: bool,
+    /// Whether all of its nodes are free of rim and holds.
+    pub plain: bool,
     /// Its number among the lines that can touch the road.
     pub surface: Option<usize>,
     /// First and last item that touches it.
@@ -163,11 +152,11 @@ impl<'a> Builder<'a> {
             self.rotate(&mut chain);
             if let Some(lines) = self.lines_of(&chain) {
                 self.end_loose();
-                let batches = chain.elements.chunks(self.width).map(<[u32]>::to_vec).collect::<Vec<_>>();
-                let shapes = batches.iter().map(|b| self.shape_of(b)).collect();
                 let Chain { elements, closed } = chain;
                 let (x, f, add) = ([0; 4], [0; 4], [false; 4]);
-                self.items.push(Item::Row(Row { elements, closed, x, f, add, shapes, lines }));
+                let row = Row { count: elements.len(), closed, x, f, add, lines };
+                // Batches, and with them shapes, come when rows are joined.
+                self.items.push(Item::Rows(Rows::new(vec![row], elements, self.width, |_| 0)));
                 return;
             }
         }
@@ -229,6 +218,7 @@ impl<'a> Builder<'a> {
             slots: Vec::new(),
             loose: false,
             has_rim: false,
+            plain: true,
             surface: None,
             items: (usize::MAX, 0),
         });
@@ -274,7 +264,7 @@ impl<'a> Builder<'a> {
     /// Lines that an item touches.
     fn touched(&self, item: &Item) -> Vec<usize> {
         match item {
-            Item::Row(row) => row.lines.to_vec(),
+            Item::Rows(rows) => rows.rows.iter().flat_map(|row| row.lines).collect(),
             Item::Loose(loose) => {
                 let nodes = loose.elements.iter().flat_map(|e| self.hex(*e));
                 nodes.map(|n| self.at[*n as usize].line as usize).collect()
@@ -294,6 +284,7 @@ impl<'a> Builder<'a> {
         let groups = self.groups();
         let places = self.lay_nodes();
         let slots = self.lay_forces(&groups, &touched);
+        let groups = self.join(&groups);
         let surface_lines = self.roles(model, road);
         let place = |at: &At| (self.lines[at.line as usize].start + at.index as usize) as u32;
         let place = self.at.iter().map(place).collect();
@@ -323,6 +314,48 @@ impl<'a> Builder<'a> {
             _ => groups.push(start..self.items.len()),
         }
         groups
+    }
+
+    /// Joins rows of a group that follow each other where that fills lanes; the groups of the items that are left.
+    fn join(&mut self, groups: &[Range<usize>]) -> Vec<Range<usize>> {
+        let mut before = std::mem::take(&mut self.items).into_iter();
+        // What became of each item.
+        let mut became = Vec::new();
+        let mut joined = Vec::new();
+        for group in groups {
+            let start = self.items.len();
+            let mut rows: Vec<Rows> = Vec::new();
+            for item in before.by_ref().take(group.len()) {
+                match item {
+                    Item::Rows(row) => rows.push(row),
+                    loose => {
+                        self.add_joined(&mut rows, &mut became);
+                        became.push(self.items.len());
+                        self.items.push(loose);
+                    }
+                }
+            }
+            self.add_joined(&mut rows, &mut became);
+            joined.push(start..self.items.len());
+        }
+        for line in self.lines.iter_mut().filter(|l| l.items.0 != usize::MAX) {
+            line.items = (became[line.items.0], became[line.items.1]);
+        }
+        joined
+    }
+
+    /// Adds rows that follow each other as items, and says which item each is part of.
+    fn add_joined(&mut self, rows: &mut Vec<Rows>, became: &mut Vec<usize>) {
+        let counts: Vec<usize> = rows.iter().map(|r| r.elements.len()).collect();
+        let mut rest = rows.drain(..);
+        for count in runs(&counts, self.width) {
+            became.extend(std::iter::repeat_n(self.items.len(), count));
+            let run: Vec<Rows> = rest.by_ref().take(count).collect();
+            let elements = run.iter().flat_map(|r| r.elements.iter().copied()).collect();
+            let joined = run.into_iter().flat_map(|r| r.rows).collect();
+            let joined = Rows::new(joined, elements, self.width, |batch| self.shape_of(batch));
+            self.items.push(Item::Rows(joined));
+        }
     }
 
     /// Vectors of a line: one more than it fills, so that a load from the second node on stays inside.
@@ -369,12 +402,14 @@ impl<'a> Builder<'a> {
                 self.lines[l].slots[k]
             };
             match &mut self.items[i] {
-                Item::Row(row) => {
-                    row.x = row.lines.map(|l| self.lines[l].start);
-                    row.f = row.lines.map(slot);
-                    for k in 0..4 {
-                        let before = std::mem::replace(&mut filled[row.f[k]], true);
-                        row.add[k] = before || self.lines[row.lines[k]].loose;
+                Item::Rows(rows) => {
+                    for row in &mut rows.rows {
+                        row.x = row.lines.map(|l| self.lines[l].start);
+                        row.f = row.lines.map(slot);
+                        for k in 0..4 {
+                            let before = std::mem::replace(&mut filled[row.f[k]], true);
+                            row.add[k] = before || self.lines[row.lines[k]].loose;
+                        }
                     }
                 }
                 Item::Loose(loose) => {
@@ -416,6 +451,7 @@ impl<'a> Builder<'a> {
         let mut surface_lines = 0;
         for line in &mut self.lines {
             line.has_rim = line.batches.iter().any(|b| b.rim != 0);
+            line.plain = line.batches.iter().all(|b| b.rim == 0 && b.held == [0; 3]);
             if line.batches.iter().any(|b| b.surface != 0) {
                 line.surface = Some(surface_lines);
                 surface_lines += 1;

@@ -9,6 +9,7 @@ mod layout;
 mod nodes;
 mod reduce;
 mod rim;
+mod rows;
 mod schedule;
 mod state;
 mod team;

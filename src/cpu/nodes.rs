@@ -34,6 +34,7 @@ pub struct Nodes<T> {
 pub struct Conditions<T> {
     pub step: StepSize<T>,
     pub loads: Loads<T>,
+    pub prediction: Prediction<T>,
     pub road: Option<Plane<T>>,
     pub friction: Option<AnyFriction<T>>,
     /// Axle at the end of the step in the engine's frame and its mean velocity, rotation at the end and its mean rate
@@ -194,6 +195,64 @@ struct Moved<N> {
     v: Vec3<N>,
 }
 
+/// A line of nodes that nothing but the internal force and the road acts on: one step. What most lines are, and short
+/// enough to stay in registers.
+#[inline(always)]
+unsafe fn plain_line<N: Lanes>(
+    nodes: &Nodes<N::Real>,
+    c: &Conditions<N::Real>,
+    number: usize,
+    view: &View<N::Real>,
+    books: &Books,
+) {
+    let line = unsafe { nodes.lines.get_unchecked(number) };
+    let lanes = LaneConditions::<N>::new(c);
+    let road = c.road.as_ref().filter(|_| line.surface.is_some());
+    let mut internal = N::zero();
+    let mut contact = LineContact::default();
+    for (b, batch) in line.batches.iter().enumerate() {
+        let (offset, at) = (b * N::WIDTH, line.start + b * N::WIDTH);
+        unsafe {
+            let f_int = internal_force::<N>(line, view, offset);
+            let x = load3::<N>(&view.x, at);
+            let v = load3::<N>(&view.v, at);
+            let w = N::load(nodes.inverse_mass.slice().as_ptr(), at);
+            let v_star = lanes.prediction.velocity(w, f_int, v);
+            let mut moved = Moved { x: axpy(v_star, lanes.dt, x), v: v_star };
+            if let (true, Some(road)) = (batch.surface != 0, road) {
+                let sums = &mut *books.sums.add(number);
+                moved =
+                    touch::<N, false>(nodes, c, road, (at, batch), x, v, moved, books, sums, &mut contact);
+            }
+            internal -= dot(f_int, axpy(moved.v, lanes.weights[1], scale(v, lanes.weights[0])));
+            store3(moved.x, &view.x, at);
+            store3(moved.v, &view.v, at);
+        }
+    }
+    unsafe {
+        end_of_line(line, view);
+        if let Some(k) = line.surface {
+            *books.contact.add(k) = contact;
+        }
+        internal.add_to((*books.sums.add(number)).internal.as_mut_ptr());
+    }
+}
+
+/// Behind the last node of a closed line stands its first.
+#[inline(always)]
+unsafe fn end_of_line<T: Real>(line: &Line, view: &View<T>) {
+    if !line.closed {
+        return;
+    }
+    let end = line.start + line.nodes.len();
+    for d in 0..3 {
+        unsafe {
+            *view.x[d].add(end) = *view.x[d].add(line.start);
+            *view.v[d].add(end) = *view.v[d].add(line.start);
+        }
+    }
+}
+
 /// A line of nodes: one step, or (`PROBE`) only what it would do.
 #[inline(always)]
 unsafe fn line_in<N: Lanes, const PROBE: bool>(
@@ -252,12 +311,8 @@ unsafe fn line_in<N: Lanes, const PROBE: bool>(
         }
     }
     unsafe {
-        if line.closed && !PROBE {
-            let end = line.start + line.nodes.len();
-            for d in 0..3 {
-                *view.x[d].add(end) = *view.x[d].add(line.start);
-                *view.v[d].add(end) = *view.v[d].add(line.start);
-            }
+        if !PROBE {
+            end_of_line(line, view);
         }
         if let (Some(k), false) = (line.surface, PROBE) {
             *books.contact.add(k) = contact;
@@ -270,10 +325,9 @@ impl<N: Lanes> LaneConditions<N> {
     #[inline(always)]
     fn new(c: &Conditions<N::Real>) -> Self {
         let loads = Loads { gravity: splat3(c.loads.gravity), alpha: N::splat(c.loads.alpha) };
-        let size = StepSize { dt: N::splat(c.step.dt), dtm: N::splat(c.step.dtm) };
         LaneConditions {
-            dt: size.dt,
-            prediction: Prediction::new(&loads, size),
+            dt: N::splat(c.step.dt),
+            prediction: c.prediction.in_lanes(),
             loads,
             weights: [N::splat(c.weights[0]), N::splat(c.weights[1])],
             inverse_dtm: N::splat(<N::Real as Scalar>::one() / c.step.dtm),
@@ -294,7 +348,16 @@ unsafe fn carried<N: Lanes>(nodes: &Nodes<N::Real>, c: &Conditions<N::Real>, at:
     }
 }
 
-/// Puts the nodes that would end inside the road back on it, one by one: few do.
+/// Old and new positions and velocities of a batch, number by number, where the compiler keeps vectors on whole cache lines.
+#[repr(align(64))]
+struct Unpacked<T> {
+    x: [[T; WIDEST]; 3],
+    v: [[T; WIDEST]; 3],
+    new_x: [[T; WIDEST]; 3],
+    new_v: [[T; WIDEST]; 3],
+}
+
+/// Puts the nodes that would end inside the road back on it.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)] // a batch in full
 unsafe fn touch<N: Lanes, const PROBE: bool>(
@@ -309,40 +372,62 @@ unsafe fn touch<N: Lanes, const PROBE: bool>(
     sums: &mut LineSums,
     contact: &mut LineContact,
 ) -> Moved<N> {
-    if !road.gap_in_lanes(free.x).any_negative() {
+    let inside = road.gap_in_lanes(free.x).negative() & batch.surface;
+    if inside == 0 {
         return free;
     }
-    let mut moved = [[<N::Real as Scalar>::zero(); WIDEST]; 6];
+    let zeros = [[<N::Real as Scalar>::zero(); WIDEST]; 3];
+    let mut batch = Unpacked { x: zeros, v: zeros, new_x: zeros, new_v: zeros };
     for d in 0..3 {
         unsafe {
-            free.x[d].store(moved[d].as_mut_ptr(), 0);
-            free.v[d].store(moved[3 + d].as_mut_ptr(), 0);
+            x[d].store(batch.x[d].as_mut_ptr(), 0);
+            v[d].store(batch.v[d].as_mut_ptr(), 0);
+            free.x[d].store(batch.new_x[d].as_mut_ptr(), 0);
+            free.v[d].store(batch.new_v[d].as_mut_ptr(), 0);
         }
     }
-    for lane in (0..N::WIDTH).filter(|lane| batch.surface >> lane & 1 == 1) {
-        let old = [x[0].lane(lane), x[1].lane(lane), x[2].lane(lane)];
-        let before = [v[0].lane(lane), v[1].lane(lane), v[2].lane(lane)];
-        let v_star = [moved[3][lane], moved[4][lane], moved[5][lane]];
+    unsafe { touch_each::<N::Real, PROBE>(nodes, c, road, at, inside, &mut batch, books, sums, contact) };
+    let load = |field: &[[N::Real; WIDEST]; 3], d: usize| unsafe { N::load(field[d].as_ptr(), 0) };
+    Moved {
+        x: [load(&batch.new_x, 0), load(&batch.new_x, 1), load(&batch.new_x, 2)],
+        v: [load(&batch.new_v, 0), load(&batch.new_v, 1), load(&batch.new_v, 2)],
+    }
+}
+
+/// The nodes of the lanes `inside`, one by one: few are. A function of its own, so that what friction laws need is not kept
+/// ready for every line.
+#[inline(never)]
+#[allow(clippy::too_many_arguments)] // a batch in full
+unsafe fn touch_each<T: Real, const PROBE: bool>(
+    nodes: &Nodes<T>,
+    c: &Conditions<T>,
+    road: &Plane<T>,
+    at: usize,
+    mut inside: u32,
+    batch: &mut Unpacked<T>,
+    books: &Books,
+    sums: &mut LineSums,
+    contact: &mut LineContact,
+) {
+    let lane_of = |field: &[[T; WIDEST]; 3], lane: usize| [field[0][lane], field[1][lane], field[2][lane]];
+    while inside != 0 {
+        let lane = inside.trailing_zeros() as usize;
+        inside &= inside - 1;
+        let (old, before) = (lane_of(&batch.x, lane), lane_of(&batch.v, lane));
+        let v_star = lane_of(&batch.new_v, lane);
         let k = nodes.surface_of[at + lane] as usize;
         let inertia = node::inertia(&c.loads, c.step, nodes.mass.slice()[at + lane]);
-        let area = || nodes.inverse_area.get(k).copied().unwrap_or(<N::Real as Scalar>::zero());
+        let area = || nodes.inverse_area.get(k).copied().unwrap_or(T::zero());
         let Some(t) =
             contact::project_any(road, c.friction.as_ref(), area, inertia, c.step, old, before, v_star)
         else {
             continue;
         };
         for d in 0..3 {
-            moved[d][lane] = t.x[d];
-            moved[3 + d][lane] = t.v[d];
+            batch.new_x[d][lane] = t.x[d];
+            batch.new_v[d][lane] = t.v[d];
         }
-        unsafe { book_touch::<N::Real, PROBE>(c, k, &t, before, books, sums, contact) };
-    }
-    let row = moved.each_ref().map(|r| r.as_ptr());
-    unsafe {
-        Moved {
-            x: [N::load(row[0], 0), N::load(row[1], 0), N::load(row[2], 0)],
-            v: [N::load(row[3], 0), N::load(row[4], 0), N::load(row[5], 0)],
-        }
+        unsafe { book_touch::<T, PROBE>(c, k, &t, before, books, sums, contact) };
     }
 }
 
@@ -497,6 +582,8 @@ macro_rules! node_pass {
                     unsafe {
                         if probe {
                             line_in::<N, true>(nodes, c, line, view, books)
+                        } else if nodes.lines.get_unchecked(line).plain && !c.has_gravity && !c.has_damping {
+                            plain_line::<N>(nodes, c, line, view, books)
                         } else {
                             line_in::<N, false>(nodes, c, line, view, books)
                         }

@@ -3,6 +3,7 @@
 //!
 //! Mass damping acts on the mean velocity, -alpha m (v(n-1/2) + v(n+1/2))/2: implicit in v, so it never limits dt.
 
+use super::lanes::Lanes;
 use super::scalar::Scalar;
 use super::tensor::{Vec3, add, axpy, scale};
 
@@ -38,6 +39,14 @@ impl<S: Scalar> Prediction<S> {
         let h = loads.alpha * step.dtm * S::from_f64(0.5);
         let share = S::one() / (S::one() + h);
         Prediction { keep: (S::one() - h) * share, push: step.dtm * share, gravity: loads.gravity }
+    }
+
+    /// The same in every lane.
+    #[inline(always)]
+    pub fn in_lanes<N: Lanes<Real = S>>(&self) -> Prediction<N> {
+        let [x, y, z] = self.gravity;
+        let gravity = [N::splat(x), N::splat(y), N::splat(z)];
+        Prediction { keep: N::splat(self.keep), push: N::splat(self.push), gravity }
     }
 
     #[inline(always)]

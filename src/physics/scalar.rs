@@ -57,13 +57,14 @@ pub trait Real: Scalar + PartialOrd + bytemuck::Pod {
     fn sqrt(self) -> Self;
     /// e^self; in friction laws only.
     fn exp(self) -> Self;
-    /// self^(-1/3) within 4 %, and the steps that make it exact (each multiplies the digits by four).
+    /// self^(-1/3) within 4 %.
     fn recip_cbrt_guess(self) -> Self;
-    const CBRT_STEPS: usize;
+    /// Whether this is single precision.
+    const SINGLE: bool;
 }
 
 macro_rules! real {
-    ($type:ty, $steps:literal, $guess:expr) => {
+    ($type:ty, $single:literal, $guess:expr) => {
         impl Scalar for $type {
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
@@ -105,12 +106,12 @@ macro_rules! real {
             fn recip_cbrt_guess(self) -> Self {
                 $guess(self)
             }
-            const CBRT_STEPS: usize = $steps;
+            const SINGLE: bool = $single;
         }
     };
 }
-real!(f64, 2, guess_f64);
-real!(f32, 2, guess_f32);
+real!(f64, false, guess_f64);
+real!(f32, true, guess_f32);
 
 #[inline(always)]
 fn guess_f64(x: f64) -> f64 {

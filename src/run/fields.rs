@@ -59,7 +59,7 @@ fn contact_nodes(
     friction_energy: &[f64],
 ) -> Vec<ContactNode> {
     let Road::Plane { normal, velocity, .. } = *road;
-    let areas = contact_areas(&model.mesh, |n| state.x[n as usize], road);
+    let areas = contact_areas(&model.mesh, |n| state.x[n as usize], road, |_| true);
     let node = |(k, ((&node, sum), area)): (usize, ((&u32, &crate::engine::SurfaceSum), f64))| {
         // Before the first window there is no impulse and no time.
         let force = sum.impulse.map(|i| if length > 0.0 { i / length } else { 0.0 });

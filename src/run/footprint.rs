@@ -42,7 +42,7 @@ impl Footprint {
             // A rim node: no road contact, and only the corner of a facet beside one.
             Err(_) => model.mesh.nodes[n as usize],
         };
-        let areas = contact_areas(&model.mesh, at, road);
+        let areas = contact_areas(&model.mesh, at, road, |k| w.surface[k].touching > 0);
         let share = |s: &SurfaceSum| f64::from(s.touching) / w.steps as f64;
         let sums = || w.surface.iter().zip(&areas);
         self.area += length * sums().map(|(s, a)| share(s) * a).sum::<f64>();

@@ -80,7 +80,7 @@ impl<T: Real, const N: usize> Scalar for Array<T, N> {
         for i in 0..N {
             y.0[i] = y.0[i].recip_cbrt_guess();
         }
-        super::recip_cbrt_from(y, self, T::CBRT_STEPS)
+        super::recip_cbrt_from(y, self, T::SINGLE)
     }
 
     #[inline(always)]
@@ -117,6 +117,32 @@ impl<T: Real, const N: usize> Lanes for Array<T, N> {
     #[inline(always)]
     unsafe fn store(self, slice: *mut T, at: usize) {
         unsafe { slice.add(at).cast::<[T; N]>().write_unaligned(self.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn load_over(mut self, from: *const T, mask: u32) -> Self {
+        for i in 0..N {
+            if mask >> i & 1 == 1 {
+                self.0[i] = unsafe { *from.wrapping_add(i) };
+            }
+        }
+        self
+    }
+
+    #[inline(always)]
+    unsafe fn store_where(self, to: *mut T, mask: u32) {
+        for i in 0..N {
+            if mask >> i & 1 == 1 {
+                unsafe { *to.wrapping_add(i) = self.0[i] };
+            }
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn add_to(self, sums: *mut f64) {
+        for i in 0..N {
+            unsafe { *sums.add(i) += self.0[i].to_f64() };
+        }
     }
 
     #[inline(always)]
@@ -159,11 +185,7 @@ impl<T: Real, const N: usize> Lanes for Array<T, N> {
     }
 
     #[inline(always)]
-    fn any_negative(self) -> bool {
-        let mut any = false;
-        for i in 0..N {
-            any |= self.0[i] < T::zero();
-        }
-        any
+    fn negative(self) -> u32 {
+        (0..N).map(|i| u32::from(self.0[i] < T::zero()) << i).sum()
     }
 }

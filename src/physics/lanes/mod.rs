@@ -24,20 +24,26 @@ pub fn first(count: usize) -> u32 {
     (1 << count) - 1
 }
 
-/// x^(-1/3) from a first guess y within 4 %: with r = 1 - x y^3, y (1 - r)^(-1/3) by its series to r^3. The relative
-/// error after it is 35/243 r^4: 3.5e-5 after one step, 1e-17 after two.
+/// x^(-1/3) from a first guess y within 4 %: with r = 1 - x y^3, y (1 - r)^(-1/3) by its series to r^3, which leaves a
+/// relative error of 35/243 r^4, 3.5e-5; then once more: 1e-17. In single precision (`single`) the series ends with r the
+/// second time, and leaves 2/9 r^2: 2.5e-9.
 #[inline(always)]
-pub fn recip_cbrt_from<S: Scalar>(guess: S, x: S, steps: usize) -> S {
+pub fn recip_cbrt_from<S: Scalar>(guess: S, x: S, single: bool) -> S {
     let (a, b, c) = (S::from_f64(1.0 / 3.0), S::from_f64(2.0 / 9.0), S::from_f64(14.0 / 81.0));
     let mut y = guess;
-    let mut n = 0;
-    while n < steps {
+    let mut first = true;
+    loop {
         let r = (x * y).neg_mul_add(y * y, S::one());
+        if single && !first {
+            return (y * r).mul_add(a, y);
+        }
         let series = r.mul_add(c, b).mul_add(r, a);
         y = (y * r).mul_add(series, y);
-        n += 1;
+        if !first {
+            return y;
+        }
+        first = false;
     }
-    y
 }
 
 /// Lanes of a real number.
@@ -55,6 +61,17 @@ pub trait Lanes: Scalar {
     /// # Safety
     /// As [`Lanes::load`].
     unsafe fn store(self, slice: *mut Self::Real, at: usize);
+    /// These lanes, those of `mask` taken from where they lie from `from` on; nothing else is read, and `from` may lie before
+    /// what it points into.
+    ///
+    /// # Safety
+    /// The lanes of `mask` can be read.
+    unsafe fn load_over(self, from: *const Self::Real, mask: u32) -> Self;
+    /// Stores the lanes of `mask` where they lie from `to` on, and touches nothing else.
+    ///
+    /// # Safety
+    /// The lanes of `mask` can be written.
+    unsafe fn store_where(self, to: *mut Self::Real, mask: u32);
     /// One number for every index of `at`, which has WIDTH entries.
     ///
     /// # Safety
@@ -70,18 +87,11 @@ pub trait Lanes: Scalar {
     ///
     /// # Safety
     /// `sums` points to WIDTH numbers.
-    #[inline(always)]
-    unsafe fn add_to(self, sums: *mut f64) {
-        let mut values = [<Self::Real as Scalar>::zero(); WIDEST];
-        unsafe { self.store(values.as_mut_ptr(), 0) };
-        for lane in 0..Self::WIDTH {
-            unsafe { *sums.add(lane) += values[lane].to_f64() };
-        }
-    }
+    unsafe fn add_to(self, sums: *mut f64);
     /// Whether any lane is not greater than zero (or is not a number).
     fn any_not_positive(self) -> bool;
-    /// Whether any lane is less than zero.
-    fn any_negative(self) -> bool;
+    /// Lanes that are less than zero, the lowest bit that of lane 0.
+    fn negative(self) -> u32;
 }
 
 /// Which instructions the machine has.

@@ -9,7 +9,8 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 macro_rules! lanes {
     ($(#[$doc:meta])* $name:ident, $vector:ty, $real:ty, $width:literal,
      $set:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $fmadd:ident, $fnmadd:ident, $load:ident,
-     $store:ident, $guess:ident, $min:ident, $not_positive:ident, $negative:ident, $fmsub:ident, $up:ident, $choose:ident) => {
+     $store:ident, $guess:ident, $min:ident, $not_positive:ident, $negative:ident, $fmsub:ident, $up:ident, $choose:ident,
+     $load_over:ident, $store_where:ident, $add_to:ident) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy)]
         #[repr(transparent)]
@@ -84,7 +85,7 @@ macro_rules! lanes {
             }
             #[inline(always)]
             fn recip_cbrt(self) -> Self {
-                super::recip_cbrt_from(unsafe { $name($guess(self.0)) }, self, <$real as Real>::CBRT_STEPS)
+                super::recip_cbrt_from(unsafe { $name($guess(self.0)) }, self, <$real as Real>::SINGLE)
             }
             #[inline(always)]
             fn ln(self) -> Self {
@@ -143,8 +144,20 @@ macro_rules! lanes {
                 unsafe { $not_positive(self.0) }
             }
             #[inline(always)]
-            fn any_negative(self) -> bool {
+            fn negative(self) -> u32 {
                 unsafe { $negative(self.0) }
+            }
+            #[inline(always)]
+            unsafe fn load_over(self, from: *const $real, mask: u32) -> Self {
+                unsafe { $name($load_over(self.0, from, mask)) }
+            }
+            #[inline(always)]
+            unsafe fn store_where(self, to: *mut $real, mask: u32) {
+                unsafe { $store_where(self.0, to, mask) }
+            }
+            #[inline(always)]
+            unsafe fn add_to(self, sums: *mut f64) {
+                unsafe { $add_to(self.0, sums) }
             }
         }
     };
@@ -231,21 +244,98 @@ unsafe fn choose_f32(a: __m512, other: __m512, mask: u32) -> __m512 {
     unsafe { _mm512_mask_blend_ps(mask as u16, other, a) }
 }
 
+/// Lanes of 64 and of 32 bits that are all ones where the mask has a bit.
 #[inline(always)]
-unsafe fn choose_f64_256(a: __m256d, other: __m256d, mask: u32) -> __m256d {
+unsafe fn on_64(mask: u32) -> __m256i {
     unsafe {
         let bits = _mm256_setr_epi64x(1, 2, 4, 8);
-        let on = _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(i64::from(mask)), bits), bits);
-        _mm256_blendv_pd(other, a, _mm256_castsi256_pd(on))
+        _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(i64::from(mask)), bits), bits)
     }
 }
 
 #[inline(always)]
-unsafe fn choose_f32_256(a: __m256, other: __m256, mask: u32) -> __m256 {
+unsafe fn on_32(mask: u32) -> __m256i {
     unsafe {
         let bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
-        let on = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(mask as i32), bits), bits);
-        _mm256_blendv_ps(other, a, _mm256_castsi256_ps(on))
+        _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(mask as i32), bits), bits)
+    }
+}
+
+#[inline(always)]
+unsafe fn choose_f64_256(a: __m256d, other: __m256d, mask: u32) -> __m256d {
+    unsafe { _mm256_blendv_pd(other, a, _mm256_castsi256_pd(on_64(mask))) }
+}
+
+#[inline(always)]
+unsafe fn choose_f32_256(a: __m256, other: __m256, mask: u32) -> __m256 {
+    unsafe { _mm256_blendv_ps(other, a, _mm256_castsi256_ps(on_32(mask))) }
+}
+
+#[inline(always)]
+unsafe fn load_over_f64(a: __m512d, from: *const f64, mask: u32) -> __m512d {
+    unsafe { _mm512_mask_loadu_pd(a, mask as u8, from) }
+}
+
+#[inline(always)]
+unsafe fn load_over_f32(a: __m512, from: *const f32, mask: u32) -> __m512 {
+    unsafe { _mm512_mask_loadu_ps(a, mask as u16, from) }
+}
+
+#[inline(always)]
+unsafe fn load_over_f64_256(a: __m256d, from: *const f64, mask: u32) -> __m256d {
+    unsafe { _mm256_blendv_pd(a, _mm256_maskload_pd(from, on_64(mask)), _mm256_castsi256_pd(on_64(mask))) }
+}
+
+#[inline(always)]
+unsafe fn load_over_f32_256(a: __m256, from: *const f32, mask: u32) -> __m256 {
+    unsafe { _mm256_blendv_ps(a, _mm256_maskload_ps(from, on_32(mask)), _mm256_castsi256_ps(on_32(mask))) }
+}
+
+#[inline(always)]
+unsafe fn store_where_f64(a: __m512d, to: *mut f64, mask: u32) {
+    unsafe { _mm512_mask_storeu_pd(to, mask as u8, a) }
+}
+
+#[inline(always)]
+unsafe fn store_where_f32(a: __m512, to: *mut f32, mask: u32) {
+    unsafe { _mm512_mask_storeu_ps(to, mask as u16, a) }
+}
+
+#[inline(always)]
+unsafe fn store_where_f64_256(a: __m256d, to: *mut f64, mask: u32) {
+    unsafe { _mm256_maskstore_pd(to, on_64(mask), a) }
+}
+
+#[inline(always)]
+unsafe fn store_where_f32_256(a: __m256, to: *mut f32, mask: u32) {
+    unsafe { _mm256_maskstore_ps(to, on_32(mask), a) }
+}
+
+/// Adds lanes to sums in double precision.
+#[inline(always)]
+unsafe fn add_f64(a: __m512d, sums: *mut f64) {
+    unsafe { _mm512_storeu_pd(sums, _mm512_add_pd(_mm512_loadu_pd(sums), a)) }
+}
+
+#[inline(always)]
+unsafe fn add_f32(a: __m512, sums: *mut f64) {
+    unsafe {
+        let upper = _mm256_castpd_ps(_mm512_extractf64x4_pd::<1>(_mm512_castps_pd(a)));
+        add_f64(_mm512_cvtps_pd(_mm512_castps512_ps256(a)), sums);
+        add_f64(_mm512_cvtps_pd(upper), sums.add(8));
+    }
+}
+
+#[inline(always)]
+unsafe fn add_f64_256(a: __m256d, sums: *mut f64) {
+    unsafe { _mm256_storeu_pd(sums, _mm256_add_pd(_mm256_loadu_pd(sums), a)) }
+}
+
+#[inline(always)]
+unsafe fn add_f32_256(a: __m256, sums: *mut f64) {
+    unsafe {
+        add_f64_256(_mm256_cvtps_pd(_mm256_castps256_ps128(a)), sums);
+        add_f64_256(_mm256_cvtps_pd(_mm256_extractf128_ps::<1>(a)), sums.add(4));
     }
 }
 
@@ -262,8 +352,8 @@ macro_rules! wide {
             unsafe { $cmp::<_CMP_NGT_UQ>(a, $zero()) != 0 }
         }
         #[inline(always)]
-        unsafe fn $negative(a: $vector) -> bool {
-            unsafe { $cmp::<_CMP_LT_OQ>(a, $zero()) != 0 }
+        unsafe fn $negative(a: $vector) -> u32 {
+            unsafe { u32::from($cmp::<_CMP_LT_OQ>(a, $zero())) }
         }
     };
 }
@@ -300,8 +390,8 @@ macro_rules! narrow {
             unsafe { $mask($cmp::<_CMP_NGT_UQ>(a, $zero())) != 0 }
         }
         #[inline(always)]
-        unsafe fn $negative(a: $vector) -> bool {
-            unsafe { $mask($cmp::<_CMP_LT_OQ>(a, $zero())) != 0 }
+        unsafe fn $negative(a: $vector) -> u32 {
+            unsafe { $mask($cmp::<_CMP_LT_OQ>(a, $zero())) as u32 }
         }
     };
 }
@@ -333,26 +423,30 @@ lanes!(
     F64x8, __m512d, f64, 8,
     _mm512_set1_pd, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_fmadd_pd, _mm512_fnmadd_pd,
     _mm512_loadu_pd, _mm512_storeu_pd, guess_f64, min_f64, not_positive_f64, negative_f64,
-    _mm512_fmsub_pd, up_f64, choose_f64
+    _mm512_fmsub_pd, up_f64, choose_f64,
+    load_over_f64, store_where_f64, add_f64
 );
 lanes!(
     /// Sixteen f32, AVX-512.
     F32x16, __m512, f32, 16,
     _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_fmadd_ps, _mm512_fnmadd_ps,
     _mm512_loadu_ps, _mm512_storeu_ps, guess_f32, min_f32, not_positive_f32, negative_f32,
-    _mm512_fmsub_ps, up_f32, choose_f32
+    _mm512_fmsub_ps, up_f32, choose_f32,
+    load_over_f32, store_where_f32, add_f32
 );
 lanes!(
     /// Four f64, AVX2 with FMA.
     F64x4, __m256d, f64, 4,
     _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_fmadd_pd, _mm256_fnmadd_pd,
     _mm256_loadu_pd, _mm256_storeu_pd, guess_f64_256, min_f64_256, not_positive_f64_256, negative_f64_256,
-    _mm256_fmsub_pd, up_f64_256, choose_f64_256
+    _mm256_fmsub_pd, up_f64_256, choose_f64_256,
+    load_over_f64_256, store_where_f64_256, add_f64_256
 );
 lanes!(
     /// Eight f32, AVX2 with FMA.
     F32x8, __m256, f32, 8,
     _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_fmadd_ps, _mm256_fnmadd_ps,
     _mm256_loadu_ps, _mm256_storeu_ps, guess_f32_256, min_f32_256, not_positive_f32_256, negative_f32_256,
-    _mm256_fmsub_ps, up_f32_256, choose_f32_256
+    _mm256_fmsub_ps, up_f32_256, choose_f32_256,
+    load_over_f32_256, store_where_f32_256, add_f32_256
 );
