@@ -37,7 +37,8 @@ fn operations_of_simple_routines_are_those_counted_by_hand() {
     // A guess (one of each), and two steps of three products and four fused ones.
     assert_eq!(count(|| a.recip_cbrt()).1, ops(1, 7, 8, 0));
     let single = count(|| Counted::<f32>::from_f64(2.0).recip_cbrt());
-    assert_eq!(single.1, ops(1, 7, 8, 0));
+    // Its second step leaves two terms of the series out.
+    assert_eq!(single.1, ops(1, 7, 6, 0));
     // Eight corners of three components; g - f/m and v' = keep v + push a; x' = x + dt v.
     assert_eq!(node_operations::<f64>(8), ops(24, 3, 9, 0));
     let o = ops(2, 3, 5, 7);
@@ -81,8 +82,8 @@ fn every_composition_is_counted_and_costs_what_it_should() {
     assert!(2 * uniform < q1p0 && 2 * uniform < full, "{q1p0} {full} {uniform}");
     // I2 needs A^T A M.
     assert!(of(Element::Q1p0, LAWS[1]) > q1p0 + 8 * 40);
-    // The same routine in either precision.
-    assert_eq!(q1p0, element_operations::<f32>(&small(Element::Q1p0, LAWS[0], None)).flops());
+    // The same routine in either precision, but for two fused operations of each point's root.
+    assert_eq!(q1p0, element_operations::<f32>(&small(Element::Q1p0, LAWS[0], None)).flops() + 8 * 2 * 2);
 }
 
 #[test]
