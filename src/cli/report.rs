@@ -46,6 +46,10 @@ struct AccuracyArgs {
     /// Finest mesh, as a multiple of 44 x 4 x 5: 1, 2, 4, ... up to it are measured
     #[arg(long, value_name = "N", default_value_t = 4)]
     finest: usize,
+    /// Finest mesh of the reference, where it is to be finer than what is measured; x8 takes a quarter of an hour a problem on two
+    /// cores
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    reference: usize,
     /// Finest mesh with every safety factor, and errors split into space, step and rounding
     #[arg(long, value_name = "N", default_value_t = 2)]
     split: usize,
@@ -198,6 +202,7 @@ fn matrix(args: &AccuracyArgs) -> Matrix {
         problems: Problem::ALL.into_iter().filter(wanted).collect(),
         elements: accuracy::ELEMENTS.to_vec(),
         meshes,
+        reference: args.reference,
         safeties: vec![0.9, 0.45],
         split: args.split,
         gpu: args.gpu,

@@ -61,10 +61,16 @@ fn legend(canvas: &mut Canvas) {
         canvas.text(name, [x + 18.0, 58.0], Anchor::Left, Weight::Regular, 14.0, INK, 0.0);
         x += 40.0 + 8.0 * name.len() as f64;
     }
-    for (name, machine) in [("f64", Machine::Cpu64), ("f32", Machine::Cpu32), ("GPU", Machine::Gpu32)] {
+    let machines = [
+        ("f64", Machine::Cpu64),
+        ("f32", Machine::Cpu32),
+        ("GPU f32", Machine::Gpu32),
+        ("GPU f32+", Machine::GpuPairs),
+    ];
+    for (name, machine) in machines {
         mark(canvas, [x + 6.0, 58.0], machine, INK);
         canvas.text(name, [x + 18.0, 58.0], Anchor::Left, Weight::Regular, 14.0, INK, 0.0);
-        x += 62.0;
+        x += 34.0 + 8.0 * name.len() as f64;
     }
     canvas.line(&[[x, 58.0], [x + 24.0, 58.0]], 1.5, INK, Some([4.0, 3.0]));
     canvas.text("fastest for its error", [x + 32.0, 58.0], Anchor::Left, Weight::Regular, 14.0, INK, 0.0);

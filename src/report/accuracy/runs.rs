@@ -22,6 +22,8 @@ pub struct Matrix {
     pub elements: Vec<Element>,
     /// Refinements, ascending.
     pub meshes: Vec<usize>,
+    /// Finest refinement of the reference; that of the meshes if it is coarser.
+    pub reference: usize,
     pub safeties: Vec<f64>,
     /// Finest refinement with every safety factor, and with the short steps that split an error; beyond it the first safety
     /// factor alone.
@@ -110,7 +112,8 @@ pub fn measure(matrix: &Matrix, mut done: impl FnMut(&Row)) -> Result<Measured> 
     let mut measured = Measured::default();
     for &problem in &matrix.problems {
         let mut known = Known { matrix, gpu: gpu.as_ref(), problem, runs: HashMap::new() };
-        let reference = Reference::find(problem, &matrix.meshes, |setting| known.run(setting))?;
+        let finest = matrix.meshes.iter().copied().fold(matrix.reference, usize::max);
+        let reference = Reference::find(problem, finest, |setting| known.run(setting))?;
         for setting in matrix.settings() {
             let row = known.row(&setting, &reference)?;
             done(&row);
