@@ -12,11 +12,12 @@ use program::Place;
 
 type Check = fn();
 
-const CHECKS: [(&str, Check); 4] = [
+const CHECKS: [(&str, Check); 5] = [
     ("a_run_draws_the_pictures_its_scene_asks_for", pictures_of_a_run),
     ("render_draws_other_views_from_the_folder_alone", pictures_again),
     ("render_of_what_is_not_there_is_an_error", nothing_to_draw),
     ("the_gpu_engine_runs_a_scene_and_says_on_what", gpu_engine),
+    ("an_ensemble_makes_the_runs_of_a_sweep_at_once", ensemble),
 ];
 
 fn main() {
@@ -106,4 +107,49 @@ fn gpu_engine() {
         let displacement = snapshot.fields.iter().find(|f| f.name == "displacement").unwrap();
         assert!(displacement.relative_l2.unwrap() < 3e-4, "{displacement:?}");
     }
+}
+
+/// Runs that take their steps together, each in its folder with its own time steps; one that goes wrong does not keep
+/// the others from finishing, and finished ones are kept. Displacements as above.
+fn ensemble() {
+    let place = Place::new();
+    place.scene("block.toml", |text| text);
+    let sweep = |more: &[&str]| {
+        let over = ["--over", "friction.coefficient=0.2,0.4", "--over", "dt-safety=0.8,0.9"];
+        place.hexroll(&[&["sweep", "block.toml"], &over[..], more].concat())
+    };
+    sweep(&["--engine", "cpu", "--out", "cpu"]).expect(0);
+    sweep(&["--ensemble", "--out", "gpu"]).expect(0);
+    let mut steps = Vec::new();
+    for mu in ["0.2", "0.4"] {
+        for safety in ["0.8", "0.9"] {
+            let run = format!("friction.coefficient_{mu}_dt-safety_{safety}");
+            let summary = read::summary(&place.path(&format!("gpu/{run}"))).unwrap().unwrap();
+            assert_eq!((summary.engine.as_str(), summary.precision.as_str()), ("gpu", "f32"));
+            assert!(summary.engine_reason.contains("4 runs"), "{}", summary.engine_reason);
+            steps.push(summary.steps);
+            let folders = ["cpu", "gpu"].map(|out| place.path(&format!("{out}/{run}")));
+            let comparison = hexroll::output::compare::compare(&folders[0], &folders[1]).unwrap();
+            for snapshot in &comparison.snapshots {
+                let displacement = snapshot.fields.iter().find(|f| f.name == "displacement").unwrap();
+                assert!(displacement.relative_l2.unwrap() < 3e-4, "{run}: {displacement:?}");
+            }
+        }
+    }
+    assert!(steps[0] > steps[1], "{steps:?}");
+    assert_eq!(sweep(&["--ensemble", "--out", "gpu"]).expect(0).stderr.matches("kept").count(), 4);
+    // The critical step exceeded by half.
+    let scene = program::shipped("bouncing_block.toml");
+    let over = ["--over", "dt-safety=1.5,0.9", "--ensemble"];
+    let done = place.hexroll(&[&["sweep", &scene], &over[..]].concat()).expect(5);
+    assert!(done.stderr.contains("[1/2] dt-safety 1.5: failed"), "{}", done.stderr);
+    assert!(done.stderr.contains("[2/2] dt-safety 0.9: done"), "{}", done.stderr);
+    for conflict in
+        [["--engine", "cpu"], ["--precision", "f64"], ["--jobs", "2"], ["--over", "precision=f64,f32"]]
+    {
+        sweep(&[&["--ensemble"], &conflict[..]].concat()).expect(2);
+    }
+    let finer = ["--set", "body.mesh.elements=[20, 20, 20]", "--over", "dt-safety=0.8,0.9", "--ensemble"];
+    let large = place.hexroll(&[&["sweep", &scene], &finer[..]].concat()).expect(3);
+    assert!(large.stderr.contains("one by one"), "{}", large.stderr);
 }

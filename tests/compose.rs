@@ -202,7 +202,7 @@ fn names(module: &Module) -> BTreeSet<String> {
 
 /// What a kernel may bring without using it: files that hold the few functions of one subject, of which a kernel
 /// calls some. Everything else that is composed must be reached.
-const SHARED: [(&str, &[&str]); 17] = [
+const SHARED: [(&str, &[&str]); 19] = [
     // Element passes: the force pass needs the stress and not the energy, the energy pass the other way round;
     // elements with points need the Gauss lines, the uniform-gradient one does not.
     ("lib/hex8", &["interpolate", "gradients", "half_edges", "scatter", "cofactor"]),
@@ -223,6 +223,9 @@ const SHARED: [(&str, &[&str]); 17] = [
     ("lib/chains", &["element_entry"]),
     ("chain/table", &["element_at", "chain_elements"]),
     ("chain/lattice", &["element_at"]),
+    // Where a body's entries begin, by array.
+    ("lib/alone", &["of_nodes", "of_surface", "of_rim", "of_chains", "of_flags"]),
+    ("lib/member", &["of_surface", "of_rim", "of_chains", "of_contact"]),
     // Every kernel but the resident one folds its index, the force pass alone looks for NaN.
     ("lib/index", &["is_finite", "thread_index"]),
 ];
@@ -463,7 +466,8 @@ fn the_largest_kernel_binds_what_adapters_are_asked_for() {
 fn a_folded_dispatch_meets_every_item_once() {
     // Sizes around every fold, with the index that shaders/lib/index.wgsl computes.
     for most_groups in [1, 2, 3, 7] {
-        let counts = Counts { elements: 0, nodes: 0, surface: 0, rim: 0, chain_groups: 0, most_groups };
+        let counts =
+            Counts { elements: 0, nodes: 0, surface: 0, rim: 0, chain_groups: 0, slots: 0, most_groups };
         for items in (1..400).chain([64 * 63, 64 * 64, 64 * 65 + 1]) {
             let [columns, rows, depth] = counts.groups(items);
             if rows > most_groups {
@@ -489,7 +493,8 @@ fn a_folded_dispatch_meets_every_item_once() {
 
 #[test]
 fn a_dispatch_beyond_one_dimension_is_folded() {
-    let counts = Counts { elements: 0, nodes: 0, surface: 0, rim: 0, chain_groups: 0, most_groups: 65_535 };
+    let counts =
+        Counts { elements: 0, nodes: 0, surface: 0, rim: 0, chain_groups: 0, slots: 0, most_groups: 65_535 };
     let dimension = 65_535 * 64;
     assert_eq!(counts.groups(dimension), [65_535, 1, 1]);
     for items in [dimension + 1, 2 * dimension, 2 * dimension + 1, 100_000_000, u32::MAX as usize] {

@@ -2,5 +2,5 @@
 @group(0) @binding(24) var<storage, read> inverse_areas: array<f32>;
 
 fn inverse_area(role: u32) -> f32 {
-    return inverse_areas[role];
+    return inverse_areas[of_surface(role)];
 }

@@ -5,20 +5,21 @@
 
 // Gives back what the step's sum over the body needs: force, and touching + 4096 (another state than the step before).
 fn book_contact(role: u32, moved: Moved, way: vec3f) -> vec4f {
-    let before = contact_states[role];
+    let k = of_surface(role);
+    let before = contact_states[k];
     if before == 0u && moved.touches == 0u {
         return vec4f(0.0);
     }
-    contact_states[role] = moved.touches;
+    contact_states[k] = moved.touches;
     let changed = select(4096.0, 0.0, before == moved.touches);
     if moved.touches == 0u {
         return vec4f(vec3f(0.0), changed);
     }
     let force = moved.normal_force + moved.tangential_force;
-    surface_sums[role].impulse += vec4f(step.dtm * force, 0.0);
-    surface_sums[role].normal_work += dot(moved.normal_force, way);
-    surface_sums[role].friction_work += dot(moved.tangential_force, way);
-    surface_sums[role].touching += 1u;
-    surface_sums[role].sticking += select(0u, 1u, moved.touches == 2u);
+    surface_sums[k].impulse += vec4f(step.dtm * force, 0.0);
+    surface_sums[k].normal_work += dot(moved.normal_force, way);
+    surface_sums[k].friction_work += dot(moved.tangential_force, way);
+    surface_sums[k].touching += 1u;
+    surface_sums[k].sticking += select(0u, 1u, moved.touches == 2u);
     return vec4f(force, changed + 1.0);
 }

@@ -22,7 +22,7 @@ fn sum_step(group: u32, lane: u32, contact: vec4f) {
         for (var k = lane; k < 128u; k += 4u) {
             sum += held_forces[k];
         }
-        contact_steps[step.slot][lane] = sum;
+        contact_steps[of_contact(step.slot)][lane] = sum;
     }
     workgroupBarrier();
     for (var k = lane; k < 4u * threads; k += threads) {

@@ -1,4 +1,4 @@
-// Many steps of a small mesh by one work group: positions and forces stay in its memory, and between two passes there
+// Many steps of a small mesh by one work group a body: positions and forces stay in its memory, and between two passes there
 // is a barrier instead of a dispatch. Twin of element_force and node, with the same parts.
 
 override threads: u32;
@@ -7,7 +7,6 @@ override rounds: u32;
 override faces: u32;
 
 @group(0) @binding(17) var<storage, read> plan: array<Step>;
-@group(0) @binding(18) var<uniform> batch: Batch;
 
 var<workgroup> step: Step;
 
@@ -76,13 +75,15 @@ fn assemble(number: u32) {
 }
 
 @compute @workgroup_size(threads)
-fn main(@builtin(local_invocation_index) lane: u32) {
+fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    own = members[group.x];
+    let steps = members[group.x].steps;
     for (var n = lane; n < arrayLength(&roles); n += threads) {
         enter(n);
     }
-    for (var k = 0u; k < batch.steps; k++) {
+    for (var k = 0u; k < steps; k++) {
         if lane == 0u {
-            step = plan[k];
+            step = plan[of_steps(k)];
         }
         workgroupBarrier();
         for (var round = 0u; round < rounds; round++) {
@@ -101,6 +102,6 @@ fn main(@builtin(local_invocation_index) lane: u32) {
         leave(n);
     }
     if lane == 0u {
-        done[0] = step.index;
+        done[of_flags()] = step.index;
     }
 }

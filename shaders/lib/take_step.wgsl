@@ -8,14 +8,14 @@ fn take_step(n: u32) -> vec4f {
     let f_int = moving(n, gather(n));
     let x = here.xyz;
     // With the work of the internal force in this window.
-    let before = velocities[n];
+    let before = velocities[of_nodes(n)];
     let v = before.xyz;
     let moved = move_node(node, f_int, x, v);
     let way = step.weight_before * v + step.weight_after * moved.v;
     let rim = is_rim(node.role);
     book_others(n, node, v, moved.v, way, rim);
     store_position(n, moved, rim, here.w);
-    velocities[n] = vec4f(moved.v, before.w - dot(f_int, way));
+    velocities[of_nodes(n)] = vec4f(moved.v, before.w - dot(f_int, way));
     if rim {
         book_rim(node, f_int, x, v, moved, way);
         return vec4f(0.0);

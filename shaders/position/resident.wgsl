@@ -23,7 +23,7 @@ fn hold_position(n: u32, x: vec3f) {
 
 // Position, and mass from memory.
 fn load_node(n: u32) -> vec4f {
-    return vec4f(held_position(n), positions[n].w);
+    return vec4f(held_position(n), positions[of_nodes(n)].w);
 }
 
 fn store_position(n: u32, moved: Moved, rim: bool, mass: f32) {
@@ -32,14 +32,14 @@ fn store_position(n: u32, moved: Moved, rim: bool, mass: f32) {
 
 // A node comes from memory, without a force, and goes back.
 fn enter(n: u32) {
-    hold_position(n, positions[n].xyz);
+    hold_position(n, positions[of_nodes(n)].xyz);
     held_forces[3u * n] = 0.0;
     held_forces[3u * n + 1u] = 0.0;
     held_forces[3u * n + 2u] = 0.0;
 }
 
 fn leave(n: u32) {
-    positions[n] = load_node(n);
+    positions[of_nodes(n)] = load_node(n);
 }
 
 fn add_force(n: u32, f: vec3f) {

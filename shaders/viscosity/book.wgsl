@@ -6,5 +6,5 @@ fn viscous_power(result: ElementForce) -> f32 {
 }
 
 fn book_viscous(chain: u32, power: f32) {
-    viscous_work[chain] -= step.viscous_weight * power;
+    viscous_work[of_chains(chain)] -= step.viscous_weight * power;
 }

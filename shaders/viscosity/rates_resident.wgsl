@@ -4,7 +4,7 @@
 struct Rates { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
 
 fn load_rates(nodes: vec4u) -> Rates {
-    return Rates(velocities[nodes.x].xyz, velocities[nodes.y].xyz, velocities[nodes.z].xyz, velocities[nodes.w].xyz);
+    return Rates(velocities[of_nodes(nodes.x)].xyz, velocities[of_nodes(nodes.y)].xyz, velocities[of_nodes(nodes.z)].xyz, velocities[of_nodes(nodes.w)].xyz);
 }
 
 fn rates_of(low: Rates, high: Rates) -> Corners {

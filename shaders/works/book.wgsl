@@ -4,5 +4,5 @@
 
 fn book_others(n: u32, node: Node, v: vec3f, after: vec3f, way: vec3f, rim: bool) {
     let damping = damping_work(node.mass, v, after, way);
-    works[n] += vec2f(node.mass * dot(gravity(), way), select(damping, 0.0, rim));
+    works[of_nodes(n)] += vec2f(node.mass * dot(gravity(), way), select(damping, 0.0, rim));
 }

@@ -11,10 +11,11 @@ use super::shuffle::shuffled;
 use super::wheel::{Roll, Wheel};
 use super::work::{self, Pass};
 use crate::cpu::{Precision, engine_at};
-use crate::engine::{Engine, State};
-use crate::gpu::{Gpu, GpuEngine, PassTime, PassTimes};
+use crate::engine::{Engine, EngineInfo, StageSetup, State, Step, Window};
+use crate::gpu::{Gpu, GpuEngine, PassTime, PassTimes, advance_together, ensemble};
 use crate::model::Model;
 use crate::physics::lanes::Level;
+use crate::physics::rim::Coordinates;
 use crate::scene::Scene;
 use crate::{Error, Result};
 
@@ -248,6 +249,16 @@ impl Bench<'_> {
     /// The same on the adapter; the passes are timed one by one afterwards, since that costs time itself.
     fn time_gpu(&self, kind: Kind, model: &Model, scene: &Scene, roll: &Roll, seconds: f64) -> Result<Timed> {
         let gpu = self.gpu.ok_or(Error::NoAdapter { detail: "none is open".into() })?;
+        let copies = self.options.copies;
+        if copies > 1 && kind == Kind::GpuF32 {
+            return Fleet::time(gpu, model, scene, roll, copies, seconds);
+        }
+        if copies > 1 {
+            return Err(Error::Unsupported {
+                what: format!("{copies} wheels at once in {}", kind.name()),
+                instead: "take gpu-f32, or --copies 1".into(),
+            });
+        }
         let mut engine = GpuEngine::new(gpu, model, scene, kind == Kind::GpuF32Plus)?;
         let Clock { us, steps, batch } = Clock::run(&mut engine, model, roll, seconds)?;
         let by_pass = engine.timed_advance(&roll.steps(steps, batch.min(512)))?;
@@ -441,6 +452,85 @@ impl Clock {
         let batch = ((seconds / BATCHES as f64 / each) as usize).clamp(3, longest);
         let us = (0..BATCHES).map(|_| Ok(1e6 * advance(batch)?)).collect::<Result<Vec<f64>>>()?;
         Ok(Clock { us: Spread::of(us), steps: taken, batch })
+    }
+}
+
+/// An ensemble, whose bodies all do the same.
+struct Fleet(Vec<GpuEngine>);
+
+impl Fleet {
+    /// Times it: steps are those of every wheel.
+    fn time(
+        gpu: &Gpu,
+        model: &Model,
+        scene: &Scene,
+        roll: &Roll,
+        copies: usize,
+        seconds: f64,
+    ) -> Result<Timed> {
+        let mut fleet = Fleet(ensemble(gpu, &vec![(model, scene); copies])?);
+        let Clock { us, steps, batch } = Clock::run(&mut fleet, model, roll, seconds)?;
+        // The last one: the furthest in the arrays.
+        let last = fleet.0.last_mut().expect("there are several");
+        let (state, bytes) = (last.state()?, last.bytes_per_element());
+        drop(fleet);
+        // What a step of one of them moves; the times are not those of all at once.
+        let mut alone = GpuEngine::new(gpu, model, scene, false)?;
+        alone.set_resident(true)?;
+        roll.start(&mut alone, model)?;
+        let mut by_pass = alone.timed_advance(&roll.steps(0, 2))?;
+        by_pass.passes.iter_mut().for_each(|pass| pass.seconds = None);
+        Ok(Timed {
+            kind: Kind::GpuF32,
+            level: Level::detect(),
+            threads: 0,
+            copies,
+            us,
+            steps,
+            batch,
+            memory: Some(bytes),
+            state,
+            by_pass: Some(by_pass),
+        })
+    }
+
+    fn each(&mut self, mut act: impl FnMut(&mut GpuEngine) -> Result<()>) -> Result<()> {
+        self.0.iter_mut().try_for_each(&mut act)
+    }
+}
+
+impl Engine for Fleet {
+    fn info(&self) -> EngineInfo {
+        self.0[0].info()
+    }
+
+    fn begin_stage(&mut self, setup: &StageSetup) -> Result<()> {
+        self.each(|engine| engine.begin_stage(setup))
+    }
+
+    fn advance(&mut self, steps: &[Step]) -> Result<()> {
+        advance_together(&mut self.0, steps)
+    }
+
+    fn sample(&mut self, next: &Step) -> Result<Window> {
+        let windows = self.0.iter_mut().map(|engine| engine.sample(next)).collect::<Result<Vec<Window>>>()?;
+        Ok(windows.into_iter().next().expect("there are several"))
+    }
+
+    fn state(&mut self) -> Result<State> {
+        self.0[0].state()
+    }
+
+    fn set_velocity(&mut self, v: &[[f64; 3]], rim_rate: &Coordinates) -> Result<()> {
+        self.each(|engine| engine.set_velocity(v, rim_rate))
+    }
+
+    fn set_state(&mut self, state: &State, rim: &Coordinates, rim_rate: &Coordinates) -> Result<()> {
+        self.each(|engine| engine.set_state(state, rim, rim_rate))
+    }
+
+    fn force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {
+        self.0[0].force(x, v)
     }
 }
 

@@ -4,12 +4,14 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::choose::{self, EngineArgs, EngineChoice, Precision};
+use super::choose::{self, Chosen, EngineArgs, EngineChoice, Precision};
 use super::format::{count, duration};
 use super::progress::Display;
 use super::recorder;
-use super::run::simulate;
-use crate::gpu::adapters;
+use super::run::{Done, simulate, simulate_with};
+use crate::engine::EngineInfo;
+use crate::gpu::{Gpu, GpuEngine, adapters, ensemble};
+use crate::model::Model;
 use crate::output::read;
 use crate::output::summary::Summary;
 use crate::scene::Scene;
@@ -140,16 +142,70 @@ pub fn run_all(cases: &[Case], jobs: usize) -> Result<Vec<Summary>> {
         }
         worker();
     });
+    let results =
+        results.into_iter().map(|result| result.into_inner().unwrap_or_else(PoisonError::into_inner));
+    gathered(cases, results)
+}
+
+/// All summaries, or the first failure; a run that was not made was interrupted.
+fn gathered(cases: &[Case], results: impl Iterator<Item = Option<Result<Summary>>>) -> Result<Vec<Summary>> {
     let mut summaries = Vec::new();
     let mut failure = None;
     for (case, result) in cases.iter().zip(results) {
-        match result.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        match result {
             Some(Ok(summary)) => summaries.push(summary),
             Some(Err(error)) => failure = failure.or(Some(error)),
             None => failure = failure.or(Some(Error::Interrupted { time: 0.0, out: case.out.clone() })),
         }
     }
     failure.map_or(Ok(summaries), Err)
+}
+
+/// Makes every run that is not there yet at the same time on one GPU, each in a work group of its own; otherwise as
+/// [`run_all`].
+///
+/// # Errors
+/// Those of `run_all`, and before anything runs [`Error::Unsupported`] for a mesh that does not fit into a work group's
+/// memory.
+pub fn run_together(cases: &[Case], engine: &EngineArgs) -> Result<Vec<Summary>> {
+    let found: Vec<Option<Summary>> = cases.iter().map(Case::finished).collect();
+    let place = |i: usize| format!("[{}/{}] {}", i + 1, cases.len(), cases[i].name);
+    for (i, summary) in found.iter().enumerate() {
+        if let Some(summary) = summary {
+            eprintln!("{}: kept, {}", place(i), line(summary));
+        }
+    }
+    let missing: Vec<usize> = (0..cases.len()).filter(|&i| found[i].is_none()).collect();
+    let mut results: Vec<Option<Result<Summary>>> = found.into_iter().map(|s| s.map(Ok)).collect();
+    if !missing.is_empty() {
+        let gpu = Gpu::open(engine.adapter.as_deref())?;
+        let models = missing.iter().map(|&i| Model::new(&cases[i].scene)).collect::<Result<Vec<_>>>()?;
+        let bodies: Vec<(&Model, &Scene)> =
+            models.iter().zip(&missing).map(|(model, &i)| (model, &cases[i].scene)).collect();
+        let engines = ensemble(&gpu, &bodies)?;
+        let reason = format!("asked for with --ensemble: {} runs at the same time", missing.len());
+        let run = |(engine, (model, i)): (GpuEngine, (&Model, usize))| {
+            let case = &cases[i];
+            let chosen = Chosen { engine: Box::new(engine), reason: reason.clone() };
+            let display = |elements, _: &EngineInfo, _: &str| Display::quiet(elements, &place(i));
+            eprintln!("{}: runs in {}", place(i), case.out.display());
+            settled_run(
+                &place(i),
+                simulate_with(chosen, (&case.scene, &case.text, model), &case.out, display),
+            )
+        };
+        std::thread::scope(|scope| {
+            let runs: Vec<_> = engines
+                .into_iter()
+                .zip(models.iter().zip(missing.iter().copied()))
+                .map(|of| scope.spawn(|| run(of)))
+                .collect();
+            for (&i, run) in missing.iter().zip(runs) {
+                results[i] = Some(run.join().expect("a run ends with a result"));
+            }
+        });
+    }
+    gathered(cases, results.into_iter())
 }
 
 fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -171,7 +227,13 @@ fn one(case: &Case, [number, of]: [usize; 2], jobs: usize) -> Result<Summary> {
     eprintln!("{place}: runs in {}", case.out.display());
     let done = simulate(&case.scene, &case.text, &engine, &case.out, |elements, _, _| {
         Display::quiet(elements, &place)
-    })?;
+    });
+    settled_run(&place, done)
+}
+
+/// What came of a run, with a line that says it.
+fn settled_run(place: &str, done: Result<Done>) -> Result<Summary> {
+    let done = done?;
     match done.error {
         Some(error) => {
             eprintln!("{place}: failed: {error}");

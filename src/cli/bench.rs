@@ -54,7 +54,8 @@ pub struct BenchArgs {
     /// Numbering of the mesh
     #[arg(long, value_enum, value_delimiter = ',', default_value = "structured")]
     meshes: Vec<Order>,
-    /// Independent wheels at the same time, one a thread, in place of threads
+    /// Independent wheels at the same time: one a thread, in place of threads; on a GPU one a work group (gpu-f32, 880
+    /// elements)
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     copies: u16,
     /// Time measured a row [s]

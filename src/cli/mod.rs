@@ -99,7 +99,11 @@ impl Cli {
             Command::Sweep(args) => Some(&args.engine),
             _ => None,
         };
-        if let Some(conflict) = engine.and_then(|e| e.conflict()) {
+        let own = match &cli.command {
+            Command::Sweep(args) => args.conflict(),
+            _ => None,
+        };
+        if let Some(conflict) = engine.and_then(|e| e.conflict()).or(own) {
             Cli::command().error(ErrorKind::ArgumentConflict, conflict).exit();
         }
         cli

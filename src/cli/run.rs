@@ -84,12 +84,27 @@ pub fn simulate(
     display: impl FnOnce(usize, &EngineInfo, &str) -> Display,
 ) -> Result<Done> {
     let model = Model::new(scene)?;
-    let Chosen { mut engine, reason } = choose::choose(engine, &model, scene)?;
+    let chosen = choose::choose(engine, &model, scene)?;
+    simulate_with(chosen, (scene, text, &model), out, display)
+}
+
+/// The same with an engine that is there already.
+///
+/// # Errors
+/// As [`simulate`].
+pub fn simulate_with(
+    Chosen { mut engine, reason }: Chosen,
+    (scene, text, model): (&Scene, &str, &Model),
+    out: &Path,
+    display: impl FnOnce(usize, &EngineInfo, &str) -> Display,
+) -> Result<Done> {
     let mut writer = RunWriter::create(out, &model.mesh, Some(text))?;
     let info = engine.info();
     let start = Instant::now();
     let mut recorder = Recorder::new(&mut writer, display(model.element_count(), &info, &reason));
-    let result = run::run(scene, &model, &mut *engine, &mut recorder);
+    let result = run::run(scene, model, &mut *engine, &mut recorder);
+    // Others may wait for it.
+    drop(engine);
     recorder.finish();
     let (totals, error) = match result {
         Ok(t) if t.interrupted => {
@@ -99,7 +114,7 @@ pub fn simulate(
         Ok(totals) => (totals, None),
         Err(error) => (recorder.totals.clone(), Some(error)),
     };
-    let mut report = Report { scene, model: &model, info, reason, out, summary: Summary::default() };
+    let mut report = Report { scene, model, info, reason, out, summary: Summary::default() };
     report.fill(&recorder, &totals, start.elapsed(), error.as_ref());
     let snapshots = recorder.snapshots;
     match report.finish(&mut writer, snapshots) {

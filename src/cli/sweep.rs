@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::batch::{Case, run_all, settled, side_by_side};
-use super::choose::EngineArgs;
+use super::batch::{Case, run_all, run_together, settled, side_by_side};
+use super::choose::{EngineArgs, EngineChoice, Precision};
 use super::recorder::listen_for_interrupts;
 use super::study::{axis, made_by, save_picture, save_text, stem};
 use crate::scene::Scene;
@@ -23,6 +23,7 @@ Examples:
   hexroll sweep scenes/lat100_slip5_viscous.toml --over slip-angle=-10:10:9
   hexroll sweep scenes/lat100_slip5_viscous.toml --over slip-angle=-6:6:5 --over deflection=1.8,2.2,2.6
   hexroll sweep scenes/lat100_straight_viscous.toml --over friction.coefficient=0.4:1.2:5 --jobs 1
+  hexroll sweep scenes/lat100_slip5_viscous.toml --over slip-angle=-15:15:61 --ensemble
   hexroll sweep scenes/lat100_slip5_viscous.toml --over slip-angle=-5:5:5 --study runs/study/study.csv";
 
 #[derive(Debug, Args)]
@@ -45,16 +46,45 @@ pub struct SweepArgs {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Runs side by side, each on its share of the cores; 0: one a core
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "ensemble")]
     jobs: usize,
+    /// All runs at the same time on one GPU, each in a work group of its own, in f32: for wheels of about a thousand
+    /// elements
+    #[arg(long)]
+    ensemble: bool,
     #[command(flatten)]
     pub engine: EngineArgs,
+}
+
+impl SweepArgs {
+    /// Arguments that exclude each other.
+    pub fn conflict(&self) -> Option<&'static str> {
+        if !self.ensemble {
+            return None;
+        }
+        if self.engine.engine == EngineChoice::Cpu {
+            return Some("--ensemble runs on a GPU, --engine cpu does not");
+        }
+        if self.engine.precision.is_some_and(|p| p != Precision::F32) {
+            return Some("--ensemble computes in f32: leave --precision out");
+        }
+        let varied = self.over.iter().any(|axis| axis.key == "precision");
+        varied.then_some("--ensemble computes in f32: no precision can be varied")
+    }
+
+    fn engine(&self) -> EngineArgs {
+        if self.ensemble {
+            let (engine, precision) = (EngineChoice::Gpu, Some(Precision::F32));
+            return EngineArgs { engine, precision, ..self.engine.clone() };
+        }
+        settled(&self.engine)
+    }
 }
 
 pub fn execute(args: &SweepArgs) -> Result<()> {
     let out = args.out.clone().unwrap_or_else(|| Path::new("runs/sweep").join(stem(&args.scene)));
     let error = args.study.as_deref().map(|file| side_force_error(file, &stem(&args.scene))).transpose()?;
-    let engine = settled(&args.engine);
+    let engine = args.engine();
     let scene = Scene::load(&args.scene, &args.sets)?;
     let combinations = combinations(&args.over);
     let case = |values: &Vec<&Value>| {
@@ -67,7 +97,11 @@ pub fn execute(args: &SweepArgs) -> Result<()> {
     };
     let cases = combinations.iter().map(case).collect::<Result<Vec<_>>>()?;
     listen_for_interrupts()?;
-    let summaries = run_all(&cases, side_by_side(args.jobs, &engine))?;
+    let summaries = if args.ensemble {
+        run_together(&cases, &engine)?
+    } else {
+        run_all(&cases, side_by_side(args.jobs, &engine))?
+    };
     let point = |(i, (values, summary)): (usize, (&Vec<&Value>, _))| Point {
         values: values.iter().map(|v| v.text.clone()).collect(),
         x: values[0].number.unwrap_or(i as f64),

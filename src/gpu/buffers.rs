@@ -16,14 +16,67 @@ pub const STEP_STRIDE: usize = 256;
 /// Steps the plan holds at a time.
 pub const PLAN: usize = 1024;
 
+/// A buffer, or one body's part of one.
+#[derive(Debug, Clone)]
+pub struct Slice {
+    buffer: wgpu::Buffer,
+    offset: u64,
+    size: u64,
+}
+
+impl Slice {
+    /// All of a buffer.
+    pub fn whole(buffer: wgpu::Buffer) -> Slice {
+        let size = buffer.size();
+        Slice { buffer, offset: 0, size }
+    }
+
+    /// Bytes.
+    pub fn size(&self) -> u64 {
+        self.size
+    }
+
+    pub fn write(&self, gpu: &Gpu, bytes: &[u8]) {
+        assert!(bytes.len() as u64 <= self.size, "{} bytes for a part of {}", bytes.len(), self.size);
+        gpu.queue.write_buffer(&self.buffer, self.offset, bytes);
+    }
+
+    pub fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.clear_buffer(&self.buffer, self.offset, Some(self.size));
+    }
+
+    /// Copies the first `bytes` to a place in another buffer.
+    pub fn copy(&self, encoder: &mut wgpu::CommandEncoder, (to, at): (&wgpu::Buffer, u64), bytes: u64) {
+        encoder.copy_buffer_to_buffer(&self.buffer, self.offset, to, at, bytes);
+    }
+
+    /// Copies all of it to another one.
+    pub fn copy_to(&self, encoder: &mut wgpu::CommandEncoder, to: &Slice) {
+        self.copy(encoder, (&to.buffer, to.offset), self.size);
+    }
+
+    /// As a shader sees it: `size` bytes, or all.
+    pub fn binding(&self, size: Option<u64>) -> wgpu::BufferBinding<'_> {
+        let size = wgpu::BufferSize::new(size.unwrap_or(self.size));
+        wgpu::BufferBinding { buffer: &self.buffer, offset: self.offset, size }
+    }
+
+    /// The buffer it is a part of.
+    pub fn all(&self) -> Slice {
+        Slice::whole(self.buffer.clone())
+    }
+}
+
 /// Buffers by name.
 #[derive(Default)]
 pub struct Buffers {
-    map: HashMap<&'static str, wgpu::Buffer>,
+    map: HashMap<&'static str, Slice>,
+    /// From one body's part to the next [bytes], in arrays that have parts.
+    strides: HashMap<&'static str, u64>,
 }
 
 impl Buffers {
-    pub fn get(&self, name: &str) -> &wgpu::Buffer {
+    pub fn get(&self, name: &str) -> &Slice {
         self.map.get(name).unwrap_or_else(|| panic!("no buffer is called {name}"))
     }
 
@@ -33,7 +86,16 @@ impl Buffers {
 
     /// Size of all of them [bytes].
     pub fn bytes(&self) -> u64 {
-        self.map.values().map(wgpu::Buffer::size).sum()
+        self.map.values().map(Slice::size).sum()
+    }
+
+    /// The same with the parts of the body number `body` of those that share them.
+    pub fn of_body(&self, body: usize) -> Buffers {
+        let part = |(name, slice): (&&'static str, &Slice)| {
+            let offset = self.strides.get(name).map_or(0, |stride| stride * body as u64);
+            (*name, Slice { offset, ..slice.clone() })
+        };
+        Buffers { map: self.map.iter().map(part).collect(), strides: self.strides.clone() }
     }
 
     /// A buffer with content.
@@ -46,27 +108,29 @@ impl Buffers {
             contents,
             usage: usage(),
         });
-        self.map.insert(name, buffer);
+        self.map.insert(name, Slice::whole(buffer));
     }
 
     /// A zeroed buffer of `count` items of T.
     pub fn zeroed<T: Pod>(&mut self, gpu: &Gpu, name: &'static str, count: usize) {
+        self.parts::<T>(gpu, name, count, 1);
+    }
+
+    /// A zeroed buffer with a part of `count` items of T for each of several bodies: the first one's part.
+    pub fn parts<T: Pod>(&mut self, gpu: &Gpu, name: &'static str, count: usize, bodies: usize) {
+        let size = (count.max(1) * size_of::<T>()).next_multiple_of(16) as u64;
+        let stride = (part_stride(count) * size_of::<T>()) as u64;
         let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(name),
-            size: (count.max(1) * size_of::<T>()).next_multiple_of(16) as u64,
+            size: stride * (bodies as u64 - 1) + size,
             usage: usage(),
             mapped_at_creation: false,
         });
-        self.map.insert(name, buffer);
+        self.map.insert(name, Slice { buffer, offset: 0, size });
+        self.strides.insert(name, stride);
     }
 
-    /// A uniform buffer of `count` items of T that begins with `data`.
-    pub fn filled_uniform<T: Pod>(&mut self, gpu: &Gpu, name: &'static str, data: &[T], count: usize) {
-        self.uniform(gpu, name, count * size_of::<T>());
-        gpu.queue.write_buffer(self.get(name), 0, bytemuck::cast_slice(data));
-    }
-
-    /// The plan's uniform buffer, and a small uniform.
+    /// A uniform buffer of `bytes`, zeroed.
     pub fn uniform(&mut self, gpu: &Gpu, name: &'static str, bytes: usize) {
         let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(name),
@@ -74,8 +138,14 @@ impl Buffers {
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        self.map.insert(name, buffer);
+        self.map.insert(name, Slice::whole(buffer));
     }
+}
+
+/// Entries from one body's part of an array to the next: whatever an entry's size, a part then begins at the largest offset
+/// alignment WebGPU allows.
+pub fn part_stride(count: usize) -> usize {
+    count.max(1).next_multiple_of(256)
 }
 
 fn usage() -> wgpu::BufferUsages {
@@ -115,25 +185,24 @@ pub fn vec4(v: [f64; 3]) -> [f32; 4] {
 }
 
 /// Shape classes as the element's shader reads them.
-pub fn upload_classes(buffers: &mut Buffers, gpu: &Gpu, model: &Model, shared: bool) {
+pub fn classes(model: &Model) -> Vec<u8> {
     match model.element {
-        Element::UniformGradient { .. } => {
-            let classes: Vec<MeanClass> = model.classes.iter().map(mean_class).collect();
-            put(buffers, gpu, &classes, shared);
-        }
-        Element::Q1p0 | Element::Full => {
-            let classes: Vec<PointClass> = model.classes.iter().map(point_class).collect();
-            put(buffers, gpu, &classes, shared);
-        }
+        Element::UniformGradient { .. } => bytes_of(&model.classes, mean_class),
+        Element::Q1p0 | Element::Full => bytes_of(&model.classes, point_class),
     }
 }
 
-fn put<T: Pod>(buffers: &mut Buffers, gpu: &Gpu, classes: &[T], shared: bool) {
-    if shared {
-        buffers.filled_uniform(gpu, "classes", classes, SHARED_CLASSES);
-    } else {
-        buffers.filled(gpu, "classes", classes);
-    }
+fn bytes_of<T: Pod>(classes: &[Class<f64>], shared: fn(&Class<f64>) -> T) -> Vec<u8> {
+    classes.iter().flat_map(|class| bytemuck::bytes_of(&shared(class)).to_vec()).collect()
+}
+
+/// Bytes of the uniform buffer of shape classes that are shared.
+pub fn shared_classes_size(element: Element) -> usize {
+    SHARED_CLASSES
+        * match element {
+            Element::UniformGradient { .. } => size_of::<MeanClass>(),
+            Element::Q1p0 | Element::Full => size_of::<PointClass>(),
+        }
 }
 
 fn point_class(class: &Class<f64>) -> PointClass {

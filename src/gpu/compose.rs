@@ -69,7 +69,9 @@ shaders!(
     "lib/group_sum",
     "lib/hex8",
     "lib/index",
+    "lib/alone",
     "lib/lattice",
+    "lib/member",
     "lib/roles",
     "lib/invariants_i1",
     "lib/invariants_i2",
@@ -182,7 +184,7 @@ impl Choice {
         match kernel {
             Kernel::ElementForce => {
                 let rates: &[&str] = if self.viscous { &["viscosity/rates"] } else { &[] };
-                let own = &["kernels/element_force", self.position()];
+                let own = &["kernels/element_force", "lib/alone", self.position()];
                 [own, rates, &self.element_parts(), &self.force_parts()].concat()
             }
             Kernel::ElementEnergy => {
@@ -192,7 +194,14 @@ impl Choice {
             Kernel::Node => self.interior().step_parts("nodes/interior"),
             Kernel::Boundary => [self.step_parts("nodes/boundary"), vec!["lib/roles"]].concat(),
             Kernel::NodeProbe => [
-                vec!["kernels/node_probe", "lib/group_sum", "lib/roles", self.now(), self.damping_book()],
+                vec![
+                    "kernels/node_probe",
+                    "lib/alone",
+                    "lib/group_sum",
+                    "lib/roles",
+                    self.now(),
+                    self.damping_book(),
+                ],
                 vec![if self.other_works() { "works/take" } else { "works/take_none" }],
                 self.node_parts(),
             ]
@@ -251,8 +260,14 @@ impl Choice {
 
     /// Element and node pass in one.
     fn resident_parts(&self) -> Vec<&'static str> {
-        let mut parts =
-            vec!["kernels/resident", "position/resident", "nodes/all", "lib/roles", "lib/take_step"];
+        let mut parts = vec![
+            "kernels/resident",
+            "lib/member",
+            "position/resident",
+            "nodes/all",
+            "lib/roles",
+            "lib/take_step",
+        ];
         parts.extend(if self.viscous { vec!["viscosity/rates_resident"] } else { vec![] });
         parts.extend(if self.road { vec!["contact/step_resident"] } else { vec!["contact/step_none"] });
         parts.extend(
@@ -302,7 +317,8 @@ impl Choice {
 
     /// The node kernel over `nodes`.
     fn step_parts(&self, nodes: &'static str) -> Vec<&'static str> {
-        [vec!["kernels/node", "lib/take_step", nodes], self.node_parts(), self.booking_parts()].concat()
+        [vec!["kernels/node", "lib/alone", "lib/take_step", nodes], self.node_parts(), self.booking_parts()]
+            .concat()
     }
 
     fn book_parts(&self) -> Vec<&'static str> {

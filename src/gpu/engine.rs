@@ -1,23 +1,25 @@
 //! The engine on the device: what it is made of, and what it answers.
 
 use super::Gpu;
-use super::buffers::{self, Buffers, PLAN, vec4};
-use super::chains::{self, Chains};
+use super::buffers::{Buffers, PLAN, vec4};
 use super::compose::{Choice, Kernel, RimKind};
-use super::order::{self, Order, Ordered};
+use super::ensemble::Seat;
+use super::order::Order;
+use super::prepared::Prepared;
 use super::program::Program;
 use super::readback::Readback;
 use super::resident::Shape;
 use super::rim::FreeRim;
 use super::sample::Reductions;
 use super::stage::{Bound, StagePrograms};
+use super::steps::{Flags, NO_FLAGS};
 use super::upload;
 use crate::engine::{Engine, EngineInfo, StageSetup, State, Step, StepContact, Window};
 use crate::error::Result;
 use crate::model::mesh::Mesh;
 use crate::model::{Model, frame};
 use crate::physics::rim::Coordinates;
-use crate::scene::{Friction, Road, Scene};
+use crate::scene::{Road, Scene};
 
 /// Threads of a work group, as written in every kernel.
 pub const GROUP: usize = 64;
@@ -59,6 +61,10 @@ pub struct GpuEngine {
     /// How the mesh fits into one work group, if it does and may.
     shape: Option<Shape>,
     fits: Option<Shape>,
+    /// Its place among bodies that take their steps together.
+    pub(super) seat: Option<Seat>,
+    /// What the device said last: of failures, and which step came last.
+    pub(super) flags: Flags,
     /// The state, while the device's buffers serve for forces elsewhere.
     pub(super) lent: Option<Vec<(&'static str, Vec<u8>)>>,
 }
@@ -72,6 +78,8 @@ pub struct Counts {
     pub rim: usize,
     /// Work groups of chains.
     pub chain_groups: usize,
+    /// Corner slots.
+    pub slots: usize,
     /// Work groups a dispatch may have in one dimension.
     pub most_groups: u32,
 }
@@ -94,6 +102,11 @@ impl Counts {
             groups => ((4 * self.elements).max(1 << 20) / (16 * groups)).clamp(64, PLAN),
         }
     }
+
+    /// Records of the contact of those steps.
+    pub fn contact_records(&self) -> usize {
+        self.contact_slots() * self.surface.div_ceil(GROUP)
+    }
 }
 
 impl GpuEngine {
@@ -102,38 +115,21 @@ impl GpuEngine {
     /// # Errors
     /// The scene does not fit the adapter's limits, or (`plus`) the adapter's arithmetic spoils compensated sums.
     pub fn new(gpu: &Gpu, model: &Model, scene: &Scene, plus: bool) -> Result<Self> {
-        let mesh = scene.friction.filter(Friction::needs_area).map(|_| model.mesh.clone());
-        let Ordered { model, order } = order::ordered(model);
-        let model = &*model;
-        let chains = Chains::new(model, chains::longest(gpu.report.software, model.element_count()));
-        buffers::check_limits(gpu, model, &chains, scene.road.is_some())?;
-        let choice = Choice {
-            element: model.element,
-            law: model.law,
-            viscous: model.viscosity.is_some(),
-            road: scene.road.is_some(),
-            friction: scene.friction,
-            held: !model.mesh.held.is_empty(),
-            gravity: scene.gravity != [0.0; 3],
-            damping: false,
-            rim: if model.mesh.rim.is_empty() { RimKind::None } else { RimKind::Prescribed },
-            plus,
-            shared_classes: chains.shared_classes,
-            lattice: chains.lattice.is_some(),
-        };
-        let grain = frame::grain(&model.mesh);
-        let frame = frame::shift(grain, model.mesh.axle, [0.0; 3], scene.road.as_ref());
-        let counts = Counts {
-            elements: model.element_count(),
-            nodes: model.node_count(),
-            surface: if choice.road { model.mesh.surface.len() } else { 0 },
-            rim: model.mesh.rim.len(),
-            chain_groups: chains.groups.len(),
-            most_groups: gpu.report.workgroups,
-        };
-        let constants = upload::constants(model, scene, &chains);
-        let masses = upload::masses(model, choice.road);
-        let buffers = upload::upload(gpu, model, &chains, &choice, &counts, frame, scene.road.as_ref());
+        let prepared = Prepared::new(gpu, model, scene, plus)?;
+        let buffers = prepared.buffers(gpu, 1);
+        GpuEngine::of_prepared(gpu, prepared, buffers, None)
+    }
+
+    /// The engine of a prepared body with these buffers, alone or in its place among others.
+    pub(super) fn of_prepared(
+        gpu: &Gpu,
+        prepared: Prepared,
+        mut buffers: Buffers,
+        seat: Option<Seat>,
+    ) -> Result<Self> {
+        let Prepared { model, order, mesh, choice, counts, constants, shape, scene, grain, frame, .. } =
+            prepared;
+        upload::fill(gpu, &mut buffers, &model, &choice, frame, scene.road.as_ref());
         let program = |kernel| Program::new(gpu, &choice, kernel, &constants);
         let bound = |p: Program| Bound::new(gpu, p, |name| buffers.get(canonical(name)));
         let force = bound(program(Kernel::ElementForce)?);
@@ -145,12 +141,11 @@ impl GpuEngine {
             0 => None,
             _ => Some(bound(program(Kernel::Rebase)?)),
         };
-        let fits = if plus { None } else { Shape::new(gpu, &chains, counts.nodes) };
         let reductions = Reductions::new(gpu, &choice, &buffers, counts.rim > 0)?;
         let engine = GpuEngine {
             gather: bound(program(Kernel::Gather)?),
             energy: bound(program(Kernel::ElementEnergy)?),
-            rim: FreeRim::new(model),
+            rim: FreeRim::new(&model),
             gpu: gpu.clone(),
             road: scene.road,
             mesh,
@@ -159,14 +154,16 @@ impl GpuEngine {
             steps: 0,
             window_steps: 0,
             step_contact: Vec::new(),
+            flags: NO_FLAGS,
             lent: None,
             // A software adapter gives a work group one of its processors, and the passes all of them.
-            shape: fits.filter(|_| !gpu.report.software),
-            fits,
+            shape: shape.filter(|_| seat.is_some() || !gpu.report.software),
+            fits: shape,
+            seat,
             steps_per_submit: 8,
             fixed_submits: false,
             surface_nodes: if choice.road { model.mesh.surface.clone() } else { Vec::new() },
-            masses,
+            masses: upload::masses(&model, choice.road),
             choice,
             constants,
             buffers,
@@ -180,7 +177,7 @@ impl GpuEngine {
             counts,
         };
         gpu.check()?;
-        if plus {
+        if choice.plus {
             super::check::compensated_sums(gpu, &engine.choice)?;
         }
         Ok(engine)
@@ -208,6 +205,11 @@ impl GpuEngine {
         self.stage.as_ref().is_some_and(|stage| stage.resident.is_some())
     }
 
+    /// Whether both are of one ensemble and alike, so that one dispatch takes the steps of both.
+    pub fn shares_dispatches(&self, other: &GpuEngine) -> bool {
+        matches!((&self.seat, &other.seat), (Some(own), Some(other)) if own.is_beside(other))
+    }
+
     /// Device memory of all buffers, over the number of elements [bytes].
     pub fn bytes_per_element(&self) -> f64 {
         self.buffers.bytes() as f64 / self.counts.elements as f64
@@ -226,8 +228,9 @@ impl GpuEngine {
         if self.choice.for_stage(&self.setup).other_works() && !self.buffers.has("works") {
             self.buffers.zeroed::<[f32; 2]>(&self.gpu, "works", self.counts.nodes);
         }
-        let Self { gpu, choice, constants, buffers, setup, rim, shape, .. } = self;
-        self.stage = Some(StagePrograms::new(gpu, choice, constants, buffers, setup, rim, *shape)?);
+        let Self { gpu, choice, constants, buffers, setup, rim, shape, seat, .. } = self;
+        let resident = shape.map(|shape| (shape, seat.as_ref()));
+        self.stage = Some(StagePrograms::new(gpu, choice, constants, buffers, setup, rim, resident)?);
         self.gpu.check()
     }
 
@@ -243,7 +246,7 @@ impl GpuEngine {
         if shift == [0.0; 3] {
             return Ok(());
         }
-        self.gpu.queue.write_buffer(self.buffers.get("shift"), 0, bytemuck::bytes_of(&vec4(shift)));
+        self.buffers.get("shift").write(&self.gpu, bytemuck::bytes_of(&vec4(shift)));
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let mut pass = encoder.begin_compute_pass(&Default::default());
         rebase.dispatch(&mut pass, self.counts.groups(self.counts.nodes), 0);
@@ -256,7 +259,7 @@ impl GpuEngine {
     pub(super) fn write_rim(&self) {
         if self.has_free_rim() {
             let state = self.rim.upload(self.frame);
-            self.gpu.queue.write_buffer(self.buffers.get("rim_state"), 0, bytemuck::bytes_of(&state));
+            self.buffers.get("rim_state").write(&self.gpu, bytemuck::bytes_of(&state));
         }
     }
 
@@ -344,7 +347,7 @@ impl Engine for GpuEngine {
             let old: &[[f32; 4]] = bytemuck::cast_slice(data.part(part));
             v.iter_mut().zip(old).for_each(|(v, old)| v[3] = old[3]);
         }
-        self.gpu.queue.write_buffer(self.buffers.get("velocities"), 0, bytemuck::cast_slice(&v));
+        self.buffers.get("velocities").write(&self.gpu, bytemuck::cast_slice(&v));
         self.rim.set_rate(&self.setup, rim_rate);
         self.write_rim();
         self.gpu.check()

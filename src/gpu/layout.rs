@@ -137,8 +137,9 @@ shared! {
         rate2: [f32; 4],
     }
 
-    /// Steps of a submission that one dispatch takes.
-    Batch { steps: u32, pad0: u32, pad1: u32, pad2: u32 }
+    /// A body's part in a dispatch of several: the steps it takes, and where its entries begin in arrays by node, surface node,
+    /// rim node and chain, in the plan, in the contact of steps, and among the flags.
+    Member { steps: u32, nodes: u32, surface: u32, rim: u32, chains: u32, plan: u32, contact: u32, flags: u32 }
 
     /// A move of the frame's origin [m].
     Shift { by: [f32; 4] }

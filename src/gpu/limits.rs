@@ -97,7 +97,7 @@ impl Loop {
         // The factor and the summand of the multiply-adds come first.
         buffers.zeroed::<u8>(gpu, "from_buffer", bytes);
         buffers.zeroed::<u8>(gpu, "to_buffer", bytes);
-        gpu.queue.write_buffer(buffers.get("from_buffer"), 0, bytemuck::cast_slice(&[[0.5f32; 4], [1.0; 4]]));
+        buffers.get("from_buffer").write(gpu, bytemuck::cast_slice(&[[0.5f32; 4], [1.0; 4]]));
         let program = Program::alone(gpu, label, text, constants)?;
         gpu.check()?;
         Ok(Loop { kernel: Bound::new(gpu, program, |name| buffers.get(name)) })

@@ -1,12 +1,13 @@
 //! Compute pipelines from composed modules, with their bindings as naga reflects them.
 
 use super::Gpu;
+use super::buffers::Slice;
 use super::compose::{Choice, Kernel};
 use super::layout::Step;
 use crate::error::Result;
 use naga::valid::{Capabilities, GlobalUse, ValidationFlags, Validator};
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A binding of a composed module.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -70,7 +71,11 @@ pub fn bindings(module: &naga::Module) -> Vec<Binding> {
 /// Programs of a device by their text and constants: what two engines, two stages or two uses of one kernel share is
 /// compiled once.
 #[derive(Debug, Clone, Default)]
-pub struct Programs(Arc<Mutex<HashMap<Key, Program>>>);
+pub struct Programs {
+    known: Arc<Mutex<HashMap<Key, Program>>>,
+    /// Held while one is compiled: who wants the same waits for it.
+    compiling: Arc<Mutex<()>>,
+}
 
 /// Text, whether it is checked, and the bits of the constants it declares.
 type Key = (String, bool, Vec<(String, u64)>);
@@ -107,13 +112,17 @@ impl Program {
         let constants: Vec<(&str, f64)> = constants.iter().copied().filter(|(n, _)| declared(n)).collect();
         let bits = constants.iter().map(|(name, value)| (name.to_string(), value.to_bits())).collect();
         let key = (text, gpu.checked, bits);
-        let known = |gpu: &Gpu| gpu.programs.0.lock().expect("no one panics holding it").get(&key).cloned();
-        if let Some(program) = known(gpu) {
+        let known = || held(&gpu.programs.known).get(&key).cloned();
+        if let Some(program) = known() {
+            return Ok(program);
+        }
+        let _alone = held(&gpu.programs.compiling);
+        if let Some(program) = known() {
             return Ok(program);
         }
         let program = Program::compile(gpu, module, label, &constants);
         gpu.check()?;
-        gpu.programs.0.lock().expect("no one panics holding it").insert(key, program.clone());
+        held(&gpu.programs.known).insert(key, program.clone());
         Ok(program)
     }
 
@@ -156,17 +165,15 @@ impl Program {
     }
 
     /// A bind group with the buffer that `of` names for each binding.
-    pub fn bind<'b>(&self, gpu: &Gpu, of: impl Fn(&str) -> &'b wgpu::Buffer) -> wgpu::BindGroup {
-        let entry = |b: &Binding| {
-            let buffer = of(&b.name);
-            let size = match b.kind {
-                BindingKind::Step => wgpu::BufferSize::new(size_of::<Step>() as u64),
-                _ => None,
-            };
-            let resource = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size });
+    pub fn bind(&self, gpu: &Gpu, of: impl Fn(&str) -> Slice) -> wgpu::BindGroup {
+        let slices: Vec<Slice> = self.bindings.iter().map(|b| of(&b.name)).collect();
+        let entry = |(b, slice)| {
+            let (b, slice): (&Binding, &Slice) = (b, slice);
+            let size = (b.kind == BindingKind::Step).then_some(size_of::<Step>() as u64);
+            let resource = wgpu::BindingResource::Buffer(slice.binding(size));
             wgpu::BindGroupEntry { binding: b.index, resource }
         };
-        let entries: Vec<wgpu::BindGroupEntry> = self.bindings.iter().map(entry).collect();
+        let entries: Vec<wgpu::BindGroupEntry> = self.bindings.iter().zip(&slices).map(entry).collect();
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
             layout: &self.layout,
@@ -178,6 +185,10 @@ impl Program {
     pub fn has_step(&self) -> bool {
         self.bindings.iter().any(|b| b.kind == BindingKind::Step)
     }
+}
+
+fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {

@@ -1,12 +1,13 @@
 //! Copies of buffers to the host, several in one submission.
 
 use super::Gpu;
+use super::buffers::Slice;
 use crate::error::Result;
 
 /// Buffers to be read together.
 #[derive(Default)]
 pub struct Readback<'b> {
-    parts: Vec<(&'b wgpu::Buffer, u64)>,
+    parts: Vec<(&'b Slice, u64, u64)>,
     bytes: u64,
 }
 
@@ -27,11 +28,16 @@ impl Data {
 }
 
 impl<'b> Readback<'b> {
-    pub fn add(&mut self, buffer: &'b wgpu::Buffer) -> Part {
+    pub fn add(&mut self, slice: &'b Slice) -> Part {
+        self.add_first(slice, slice.size())
+    }
+
+    /// The first `bytes` of a buffer, a multiple of four.
+    pub fn add_first(&mut self, slice: &'b Slice, bytes: u64) -> Part {
         let start = self.bytes;
-        self.parts.push((buffer, start));
-        self.bytes += buffer.size().next_multiple_of(16);
-        Part { start: start as usize, end: (start + buffer.size()) as usize }
+        self.parts.push((slice, start, bytes));
+        self.bytes += bytes.next_multiple_of(16);
+        Part { start: start as usize, end: (start + bytes) as usize }
     }
 
     /// Runs `before` and the copies in one submission, and waits for it.
@@ -49,8 +55,8 @@ impl<'b> Readback<'b> {
             usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
             mapped_at_creation: false,
         });
-        for (buffer, start) in &self.parts {
-            encoder.copy_buffer_to_buffer(buffer, 0, &staging, *start, buffer.size());
+        for (slice, start, bytes) in &self.parts {
+            slice.copy(&mut encoder, (&staging, *start), *bytes);
         }
         gpu.queue.submit([encoder.finish()]);
         let (sender, receiver) = std::sync::mpsc::channel();

@@ -29,13 +29,19 @@ impl Shape {
     /// a node with the same corner.
     pub fn new(gpu: &Gpu, chains: &Chains, nodes: usize) -> Option<Shape> {
         let limits = gpu.device.limits();
-        let threads = THREADS.min(limits.max_compute_invocations_per_workgroup as usize) / LANES * LANES;
-        let words = (3 * nodes).max(4 * threads);
-        let bytes = 2 * size_of::<f32>() * words + size_of::<Step>();
         if limits.max_storage_buffers_per_shader_stage < RESIDENT_STORAGE_BUFFERS {
             return None;
         }
-        if threads < 2 * LANES || bytes > gpu.report.shared_memory as usize {
+        let threads = limits.max_compute_invocations_per_workgroup as usize;
+        Shape::within(threads, gpu.report.shared_memory as usize, chains, nodes)
+    }
+
+    /// The same for work groups of at most so many threads and so many bytes.
+    pub fn within(threads: usize, memory: usize, chains: &Chains, nodes: usize) -> Option<Shape> {
+        let threads = THREADS.min(threads) / LANES * LANES;
+        let words = (3 * nodes).max(4 * threads);
+        let bytes = 2 * size_of::<f32>() * words + size_of::<Step>();
+        if threads < 2 * LANES || bytes > memory {
             return None;
         }
         let groups = threads / LANES;

@@ -59,12 +59,12 @@ impl GpuEngine {
         }
         if self.reductions.viscous.is_some() {
             let (from, to) = (self.buffers.get("partials_viscous"), self.buffers.get("kept_viscous"));
-            encoder.copy_buffer_to_buffer(from, 0, to, 0, from.size());
-            encoder.clear_buffer(self.buffers.get("viscous_work"), 0, None);
+            from.copy_to(encoder, to);
+            self.buffers.get("viscous_work").clear(encoder);
         }
         if self.has_free_rim() {
             let (from, to) = (self.buffers.get("rim_state"), self.buffers.get("rim_state_probe"));
-            encoder.copy_buffer_to_buffer(from, 0, to, 0, from.size());
+            from.copy_to(encoder, to);
         }
         let mut pass = encoder.begin_compute_pass(&Default::default());
         self.force.dispatch(&mut pass, self.element_groups(), 0);
@@ -84,7 +84,7 @@ impl GpuEngine {
     fn clear_sums(&self) {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         for name in ["rim_sums", "surface_sums", "viscous_work"] {
-            encoder.clear_buffer(self.buffers.get(name), 0, None);
+            self.buffers.get(name).clear(&mut encoder);
         }
         // The probe may have met the failure that the next step will report.
         self.gpu.queue.submit([encoder.finish()]);
@@ -92,7 +92,7 @@ impl GpuEngine {
     }
 
     pub(super) fn reset_failure(&self) {
-        self.gpu.queue.write_buffer(self.buffers.get("failure"), 0, bytemuck::cast_slice(&[u32::MAX; 4]));
+        self.buffers.get("failure").write(&self.gpu, bytemuck::cast_slice(&[u32::MAX; 4]));
     }
 
     /// The window since the last sample, and the probe; see [`Engine::sample`](crate::engine::Engine::sample).
@@ -181,7 +181,7 @@ impl GpuEngine {
             Err(_) => mesh.nodes[n as usize],
         };
         let areas = inverse_areas(mesh, at, road);
-        self.gpu.queue.write_buffer(self.buffers.get("inverse_areas"), 0, bytemuck::cast_slice(&areas));
+        self.buffers.get("inverse_areas").write(&self.gpu, bytemuck::cast_slice(&areas));
     }
 
     fn read_surface(&self, window: &mut Window, [sums, contact, states]: [&[u8]; 3]) {

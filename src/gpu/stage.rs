@@ -1,15 +1,17 @@
 //! Programs that depend on the stage: the node pass, its probe, and the free rim.
 
 use super::Gpu;
-use super::buffers::Buffers;
+use super::buffers::{Buffers, Slice};
 use super::compose::{Choice, Kernel, RimKind};
 use super::engine::canonical;
+use super::ensemble::Seat;
 use super::program::Program;
 use super::resident::Shape;
 use super::rim::FreeRim;
 use crate::engine::StageSetup;
 use crate::error::Result;
 use crate::physics::rim::SPIN;
+use std::sync::Arc;
 
 /// Arrays by node, and the slots and lists by which nodes gather.
 const BY_NODE: [&str; 9] =
@@ -27,13 +29,28 @@ pub struct Bound {
 }
 
 impl Bound {
-    pub fn new<'b>(gpu: &Gpu, program: Program, of: impl Fn(&str) -> &'b wgpu::Buffer) -> Bound {
+    pub fn new<'b>(gpu: &Gpu, program: Program, of: impl Fn(&str) -> &'b Slice) -> Bound {
+        let group = program.bind(gpu, |name| of(name).clone());
+        Bound::with(program, group, of)
+    }
+
+    /// With the whole buffers of those given, where they are parts: of all bodies.
+    pub fn of_all<'b>(gpu: &Gpu, program: Program, of: impl Fn(&str) -> &'b Slice) -> Bound {
+        let group = program.bind(gpu, |name| of(name).all());
+        Bound::with(program, group, of)
+    }
+
+    fn with<'b>(program: Program, group: wgpu::BindGroup, of: impl Fn(&str) -> &'b Slice) -> Bound {
         let mut touched = [0; 2];
         for b in program.bindings.iter().filter(|b| !SELDOM.contains(&&*b.name)) {
             touched[usize::from(!BY_NODE.contains(&&*b.name))] += b.touched(of(&b.name).size());
         }
-        let group = program.bind(gpu, of);
         Bound { program, group, touched }
+    }
+
+    /// Whether it is the same pipeline.
+    pub fn is_same(&self, other: &Bound) -> bool {
+        self.program.pipeline == other.program.pipeline
     }
 
     /// Bytes that a pass moves which meets `share` of all nodes, every entry of an array once.
@@ -56,7 +73,7 @@ pub struct StagePrograms {
     pub node: Bound,
     pub boundary: Option<Bound>,
     /// All of it in one work group.
-    pub resident: Option<Bound>,
+    pub resident: Option<Arc<Bound>>,
     pub probe: Bound,
     /// Free rim: its step, and the same on a copy of its state for the probe.
     pub rim: Option<Bound>,
@@ -72,7 +89,7 @@ impl StagePrograms {
         buffers: &Buffers,
         setup: &StageSetup,
         rim: &FreeRim,
-        shape: Option<Shape>,
+        resident: Option<(Shape, Option<&Seat>)>,
     ) -> Result<StagePrograms> {
         let choice = choice.for_stage(setup);
         let constants = [constants, &stage_constants(setup, rim)].concat();
@@ -91,10 +108,15 @@ impl StagePrograms {
         } else {
             None
         };
-        let resident = match shape {
-            Some(shape) if choice.rim != RimKind::Free => {
+        let resident = match resident {
+            Some((shape, seat)) if choice.rim != RimKind::Free => {
                 let constants = [&constants[..], &shape.constants()].concat();
-                Some(Bound::new(gpu, Program::new(gpu, &choice, Kernel::Resident, &constants)?, of))
+                let program = Program::new(gpu, &choice, Kernel::Resident, &constants)?;
+                let made = Bound::of_all(gpu, program, of);
+                Some(match seat {
+                    Some(seat) => seat.program(made),
+                    None => Arc::new(made),
+                })
             }
             _ => None,
         };

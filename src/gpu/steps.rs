@@ -2,10 +2,11 @@
 
 use super::buffers::{STEP_STRIDE, vec4};
 use super::engine::{GROUP, GpuEngine};
+use super::ensemble::Job;
 use super::layout;
 use super::readback::Readback;
 use super::stage::Bound;
-use super::verdict;
+use super::{upload, verdict};
 use crate::engine::{Step, StepContact};
 use crate::error::Result;
 use crate::physics::rim::{self, Coordinates};
@@ -13,6 +14,37 @@ use std::time::{Duration, Instant};
 
 /// Aimed length of one submission: long enough to hide its cost, far from any driver's patience.
 const SUBMIT: Duration = Duration::from_millis(50);
+
+/// Buffers that say how steps went.
+const REPORTS: [&str; 3] = ["contact_steps", "failure", "done"];
+
+/// First failing step with its element, and the last step taken, as the device has them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Flags {
+    failure: [u32; 2],
+    done: u32,
+}
+
+/// Before any step.
+pub(super) const NO_FLAGS: Flags = Flags { failure: [u32::MAX; 2], done: u32::MAX };
+
+/// What the device says of the steps of a submission.
+pub struct Taken {
+    /// Contact by step and work group.
+    contact: Vec<[f32; 4]>,
+    flags: Flags,
+    /// How long it took [s].
+    seconds: f64,
+}
+
+impl Taken {
+    /// From the bytes of contact, failure and sentinel.
+    pub fn of([contact, failure, done]: [&[u8]; 3], seconds: f64) -> Taken {
+        let word = |bytes: &[u8], k: usize| bytemuck::cast_slice::<u8, u32>(bytes)[k];
+        let flags = Flags { failure: [word(failure, 0), word(failure, 1)], done: word(done, 0) };
+        Taken { contact: bytemuck::cast_slice(contact).to_vec(), flags, seconds }
+    }
+}
 
 /// One dispatch of a step.
 pub(super) struct Pass<'e> {
@@ -90,7 +122,7 @@ impl GpuEngine {
         for (slot, entry) in bytes.chunks_exact_mut(STEP_STRIDE).zip(entries) {
             slot[..size_of::<layout::Step>()].copy_from_slice(bytemuck::bytes_of(entry));
         }
-        self.gpu.queue.write_buffer(self.buffers.get("step"), 0, &bytes);
+        self.buffers.get("step").write(&self.gpu, &bytes);
     }
 
     /// Rounds of passes that a submission of `steps` needs: a resident kernel takes all steps in one.
@@ -142,52 +174,94 @@ impl GpuEngine {
         };
         let entries: Vec<layout::Step> = steps.iter().zip(starts).enumerate().map(entry).collect();
         if self.is_resident() {
-            let batch = layout::Batch { steps: entries.len() as u32, pad0: 0, pad1: 0, pad2: 0 };
-            self.gpu.queue.write_buffer(self.buffers.get("plan"), 0, bytemuck::cast_slice(&entries));
-            self.gpu.queue.write_buffer(self.buffers.get("batch"), 0, bytemuck::bytes_of(&batch));
+            self.buffers.get("plan").write(&self.gpu, bytemuck::cast_slice(&entries));
+            if self.seat.is_none() {
+                self.write_member(steps.len());
+            }
         } else {
             self.write_plan(&entries);
         }
     }
 
-    /// Submits `steps` in one go and waits.
-    pub(super) fn submit(&mut self, steps: &[Step], starts: &[Coordinates]) -> Result<()> {
-        self.ready()?;
-        self.write_steps(steps, starts);
-        let passes = self.passes();
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            for slot in 0..self.rounds(steps.len()) {
-                passes.iter().for_each(|p| p.dispatch(&mut pass, slot));
-            }
-        }
-        let begun = Instant::now();
-        self.gpu.queue.submit([encoder.finish()]);
-        self.gpu.wait()?;
-        let each = begun.elapsed().as_secs_f64() / steps.len() as f64;
-        if !self.fixed_submits {
-            self.steps_per_submit =
-                ((SUBMIT.as_secs_f64() / each) as usize).clamp(1, self.counts.contact_slots());
-        }
-        self.took(steps)
+    /// What steps of a submission have to be told to a resident kernel.
+    fn member(&self, steps: usize) -> layout::Member {
+        upload::member(&self.counts, self.seat.as_ref().map_or(0, |seat| seat.seated.1), steps)
     }
 
-    /// Books steps that the device has taken, and reads what it says of each.
-    pub(super) fn took(&mut self, steps: &[Step]) -> Result<()> {
+    /// Tells the next dispatch of a resident kernel to take steps of this body alone.
+    pub(super) fn write_member(&self, steps: usize) {
+        if self.is_resident() {
+            self.buffers.get("members").write(&self.gpu, bytemuck::bytes_of(&self.member(steps)));
+        }
+    }
+
+    /// Submits `steps` in one go and waits.
+    pub(super) fn submit(&mut self, steps: &[Step], starts: &[Coordinates]) -> Result<()> {
+        self.write_steps(steps, starts);
+        let taken = match (self.job(steps.len()), &self.seat) {
+            (Some(job), Some(seat)) => seat.take(job)?,
+            _ => {
+                let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+                let mut pass = encoder.begin_compute_pass(&Default::default());
+                let passes = self.passes();
+                for slot in 0..self.rounds(steps.len()) {
+                    passes.iter().for_each(|p| p.dispatch(&mut pass, slot));
+                }
+                drop(pass);
+                self.take(encoder, steps.len())?
+            }
+        };
+        self.took(steps, &taken);
+        Ok(())
+    }
+
+    /// Steps that are written, to be taken together with those of others; `None` where no kernel can.
+    pub(super) fn job(&self, steps: usize) -> Option<Job> {
+        let program = self.stage.as_ref()?.resident.clone()?;
+        let seat = self.seat.as_ref()?;
+        let [contact, failure, done] = REPORTS.map(|name| self.buffers.get(name).clone());
+        Some(Job {
+            seated: seat.seated,
+            member: self.member(steps),
+            program,
+            contact: (contact, self.contact_bytes(steps)),
+            flags: [failure, done],
+        })
+    }
+
+    /// Work groups whose contact a step leaves behind.
+    fn contact_groups(&self) -> usize {
+        if self.is_resident() { self.counts.surface.min(1) } else { self.counts.surface.div_ceil(GROUP) }
+    }
+
+    /// Bytes of the contact of `steps` steps.
+    fn contact_bytes(&self, steps: usize) -> u64 {
+        (steps * self.contact_groups() * size_of::<[f32; 4]>()) as u64
+    }
+
+    /// Submits `steps` steps that are encoded, waits, and reads what the device says of them.
+    pub(super) fn take(&self, encoder: wgpu::CommandEncoder, steps: usize) -> Result<Taken> {
+        let mut read = Readback::default();
+        let [contact, failure, done] = REPORTS.map(|name| self.buffers.get(name));
+        let parts = [read.add_first(contact, self.contact_bytes(steps)), read.add(failure), read.add(done)];
+        let begun = Instant::now();
+        let data = read.copy(&self.gpu, encoder)?;
+        Ok(Taken::of(parts.map(|part| data.part(part)), begun.elapsed().as_secs_f64()))
+    }
+
+    /// Books steps that the device has taken.
+    pub(super) fn took(&mut self, steps: &[Step], taken: &Taken) {
         self.steps += steps.len() as u64;
         self.window_steps += steps.len() as u64;
-        if self.counts.surface == 0 {
-            return Ok(());
+        self.flags = taken.flags;
+        if !self.fixed_submits {
+            let most = SUBMIT.as_secs_f64() * steps.len() as f64 / taken.seconds;
+            self.steps_per_submit = (most as usize).clamp(1, self.counts.contact_slots());
         }
-        let mut read = Readback::default();
-        let part = read.add(self.buffers.get("contact_steps"));
-        let data = read.run(&self.gpu, |_| {})?;
-        let partials: &[[f32; 4]] = bytemuck::cast_slice(data.part(part));
-        let groups = if self.is_resident() { 1 } else { self.counts.surface.div_ceil(GROUP) };
-        let each = partials.chunks_exact(groups);
-        self.step_contact.extend(steps.iter().zip(each).map(|(step, sums)| step_contact(step, sums)));
-        Ok(())
+        if self.counts.surface > 0 {
+            let each = taken.contact.chunks_exact(self.contact_groups());
+            self.step_contact.extend(steps.iter().zip(each).map(|(step, sums)| step_contact(step, sums)));
+        }
     }
 
     /// Takes the steps by submissions, each made by `submit`.
@@ -196,21 +270,31 @@ impl GpuEngine {
         steps: &[Step],
         mut submit: impl FnMut(&mut Self, &[Step], &[Coordinates]) -> Result<()>,
     ) -> Result<()> {
-        if steps.is_empty() {
-            return Ok(());
-        }
-        self.restore()?;
-        self.ready()?;
-        let first = self.steps;
-        let starts: Vec<Coordinates> =
-            std::iter::once(self.rim.q).chain(steps.iter().map(|s| s.rim)).take(steps.len()).collect();
+        let (first, starts) = self.begin_steps(steps)?;
         let mut at = 0;
         while at < steps.len() {
             let end = (at + self.steps_per_submit).min(steps.len());
             submit(self, &steps[at..end], &starts[at..end])?;
             at = end;
         }
-        if let (false, Some(last), Some(before)) = (self.has_free_rim(), steps.last(), starts.last()) {
+        self.end_steps(steps, first)
+    }
+
+    /// What comes before steps are submitted: the number of the first, and where the rim is before each.
+    pub(super) fn begin_steps(&mut self, steps: &[Step]) -> Result<(u64, Vec<Coordinates>)> {
+        if !steps.is_empty() {
+            self.restore()?;
+            self.ready()?;
+        }
+        let before = std::iter::once(self.rim.q).chain(steps.iter().map(|s| s.rim));
+        Ok((self.steps, before.take(steps.len()).collect()))
+    }
+
+    /// What comes after: the rim is where they took it, unless the device knows; and the device's word on them.
+    pub(super) fn end_steps(&mut self, steps: &[Step], first: u64) -> Result<()> {
+        let Some(last) = steps.last() else { return Ok(()) };
+        if !self.has_free_rim() {
+            let before = steps.len().checked_sub(2).map_or(self.rim.q, |k| steps[k].rim);
             self.rim.rate = std::array::from_fn(|c| (last.rim[c] - before[c]) / last.dt);
             self.rim.q = last.rim;
         }
@@ -218,15 +302,9 @@ impl GpuEngine {
     }
 
     /// Turns what the device reported into an error, and checks that the last pass ran.
-    fn check_steps(&mut self, steps: &[Step], first: u64) -> Result<()> {
-        let mut read = Readback::default();
-        let failure = read.add(self.buffers.get("failure"));
-        let done = read.add(self.buffers.get("done"));
-        let data = read.run(&self.gpu, |_| {})?;
-        let flag = |part| -> &[u32] { bytemuck::cast_slice(data.part(part)) };
-        let (failure, done) = (flag(failure), flag(done)[0]);
+    fn check_steps(&self, steps: &[Step], first: u64) -> Result<()> {
         let element = |e: usize| self.order.as_ref().map_or(e, |order| order.elements[e] as usize);
-        verdict::failure([failure[0], failure[1]], steps, first, element)?;
-        verdict::sentinel(done, self.steps).map_err(|detail| self.gpu.error(detail))
+        verdict::failure(self.flags.failure, steps, first, element)?;
+        verdict::sentinel(self.flags.done, self.steps).map_err(|detail| self.gpu.error(detail))
     }
 }

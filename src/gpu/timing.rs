@@ -1,6 +1,7 @@
 //! Where the time of a step goes: every pass between two timestamps.
 
 use super::Gpu;
+use super::buffers::Slice;
 use super::engine::GpuEngine;
 use super::readback::Readback;
 use crate::engine::Step;
@@ -69,6 +70,7 @@ impl GpuEngine {
     /// Submits the steps with every dispatch in a pass of its own; seconds by pass.
     fn submit_timed(&mut self, steps: &[Step], starts: &[Coordinates], stamps: bool) -> Result<Vec<f64>> {
         self.write_steps(steps, starts);
+        self.write_member(steps.len());
         let passes = self.passes();
         let rounds = self.rounds(steps.len());
         let clock = Clock::new(&self.gpu, passes.len() * rounds);
@@ -83,7 +85,8 @@ impl GpuEngine {
         let each = clock.read(&self.gpu, encoder)?;
         let sum = |k: usize| each.iter().skip(k).step_by(passes.len()).sum();
         let seconds = (0..passes.len()).map(sum).collect();
-        self.took(steps)?;
+        let taken = self.take(self.gpu.device.create_command_encoder(&Default::default()), steps.len())?;
+        self.took(steps, &taken);
         Ok(seconds)
     }
 }
@@ -128,7 +131,8 @@ impl Clock {
             encoder.resolve_query_set(queries, 0..2 * self.passes as u32, &self.resolved, 0);
         }
         let mut read = Readback::default();
-        let part = read.add(&self.resolved);
+        let resolved = Slice::whole(self.resolved.clone());
+        let part = read.add(&resolved);
         let data = read.copy(gpu, encoder)?;
         let ticks: &[u64] = bytemuck::cast_slice(data.part(part));
         let period = 1e-9 * f64::from(gpu.queue.get_timestamp_period());

@@ -13,7 +13,7 @@ impl GpuEngine {
         self.lend()?;
         self.write_positions(x);
         let v: Vec<[f32; 4]> = self.by_device(v).into_iter().map(vec4).collect();
-        self.gpu.queue.write_buffer(self.buffers.get("velocities"), 0, bytemuck::cast_slice(&v));
+        self.buffers.get("velocities").write(&self.gpu, bytemuck::cast_slice(&v));
         let mut read = Readback::default();
         // The gather pass writes where the velocities were: the element pass has read them.
         let forces = read.add(self.buffers.get("velocities"));
@@ -29,7 +29,7 @@ impl GpuEngine {
     pub(super) fn write_positions(&self, x: &[[f64; 3]]) {
         let (hi, lo) = split(&self.by_device(x), self.frame, &self.masses);
         let write = |name, data: &[[f32; 4]]| {
-            self.gpu.queue.write_buffer(self.buffers.get(name), 0, bytemuck::cast_slice(data));
+            self.buffers.get(name).write(&self.gpu, bytemuck::cast_slice(data));
         };
         write("positions", &hi);
         if self.choice.plus {
@@ -56,7 +56,7 @@ impl GpuEngine {
     pub(super) fn restore(&mut self) -> Result<()> {
         let Some(lent) = self.lent.take() else { return Ok(()) };
         for (name, bytes) in lent {
-            self.gpu.queue.write_buffer(self.buffers.get(name), 0, &bytes);
+            self.buffers.get(name).write(&self.gpu, &bytes);
         }
         // The trial may have met a failure, which is no step's.
         self.reset_failure();

@@ -1,7 +1,7 @@
 //! What a model becomes on the device: constants of the kernels, and every buffer with its content.
 
 use super::Gpu;
-use super::buffers::{self, Buffers, PLAN, STEP_STRIDE, vec4};
+use super::buffers::{self, Buffers, PLAN, STEP_STRIDE, part_stride, vec4};
 use super::chains::{Chains, LANES};
 use super::compose::Choice;
 use super::engine::{Counts, GROUP, PARTIALS};
@@ -13,6 +13,26 @@ use crate::scene::{Friction, Road, Scene};
 /// Node roles, as in shaders/lib/nodes.wgsl.
 const INTERIOR: u32 = 0xffff_ffff;
 const RIM: u32 = 0x8000_0000;
+
+/// Words of a body's flags.
+const FLAGS: usize = 4;
+/// Bodies of one dispatch at most, as in shaders/lib/member.wgsl.
+pub const MEMBERS: usize = 512;
+
+/// The part of the body number `body` of a dispatch in which it takes `steps`.
+pub fn member(counts: &Counts, body: usize, steps: usize) -> layout::Member {
+    let at = |count: usize| (body * part_stride(count)) as u32;
+    layout::Member {
+        steps: steps as u32,
+        nodes: at(counts.nodes),
+        surface: at(counts.surface),
+        rim: at(counts.rim),
+        chains: at(LANES * counts.chain_groups),
+        plan: at(PLAN),
+        contact: at(counts.contact_records()),
+        flags: at(FLAGS),
+    }
+}
 
 /// Values of every constant a kernel may declare.
 pub fn constants(model: &Model, scene: &Scene, chains: &Chains) -> Vec<(&'static str, f64)> {
@@ -59,58 +79,90 @@ pub fn inverse_areas(mesh: &Mesh, x: impl Fn(u32) -> [f64; 3], road: &Road) -> V
     areas::inverse_areas(mesh, x, road).into_iter().map(|a| a as f32).collect()
 }
 
-/// Every buffer of a run, filled.
-pub fn upload(
-    gpu: &Gpu,
-    model: &Model,
-    chains: &Chains,
-    choice: &Choice,
-    counts: &Counts,
-    frame: [f64; 3],
-    road: Option<&Road>,
-) -> Buffers {
-    let mut b = Buffers::default();
+/// A table that no kernel writes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    name: &'static str,
+    bytes: Vec<u8>,
+    /// Size of the uniform buffer it begins, if it is one [bytes].
+    uniform: Option<usize>,
+}
+
+/// Every table of a body: what bodies must have in common to share a dispatch, beside the kernels.
+pub fn tables(model: &Model, chains: &Chains, choice: &Choice) -> Vec<Table> {
     let mesh = &model.mesh;
-    b.filled(gpu, "chain_groups", &chains.groups);
-    b.filled(gpu, "chain_classes", &chains.classes);
-    buffers::upload_classes(&mut b, gpu, model, chains.shared_classes);
+    let table = |name, bytes: &[u8]| Table { name, bytes: bytes.to_vec(), uniform: None };
+    let mut all = vec![
+        table("chain_groups", bytemuck::cast_slice(&chains.groups)),
+        table("chain_classes", bytemuck::cast_slice(&chains.classes)),
+        Table {
+            name: "classes",
+            bytes: buffers::classes(model),
+            uniform: chains.shared_classes.then(|| buffers::shared_classes_size(model.element)),
+        },
+    ];
     if chains.lattice.is_none() {
-        b.filled(gpu, "chain_nodes", &chains.nodes);
-        b.filled(gpu, "chain_elements", &chains.elements);
-        b.filled(gpu, "corner_start", &chains.start);
-        b.filled(gpu, "corners", &chains.slots);
+        all.extend([
+            table("chain_nodes", bytemuck::cast_slice(&chains.nodes)),
+            table("chain_elements", bytemuck::cast_slice(&chains.elements)),
+            table("corner_start", bytemuck::cast_slice(&chains.start)),
+            table("corners", bytemuck::cast_slice(&chains.slots)),
+        ]);
     }
-    b.filled(gpu, "roles", &roles(model, choice.road));
-    b.filled(gpu, "rim_nodes", &mesh.rim);
     let arm = |&n: &u32| vec4(std::array::from_fn(|d| mesh.nodes[n as usize][d] - mesh.axle[d]));
-    b.filled(gpu, "rim_arms", &mesh.rim.iter().map(arm).collect::<Vec<_>>());
+    let arms: Vec<[f32; 4]> = mesh.rim.iter().map(arm).collect();
     let surface = if choice.road { &mesh.surface[..] } else { &[] };
-    b.filled(gpu, "surface_nodes", surface);
-    b.filled(gpu, "boundary", &[surface, &mesh.rim].concat());
+    all.extend([
+        table("roles", bytemuck::cast_slice(&roles(model, choice.road))),
+        table("rim_nodes", bytemuck::cast_slice(&mesh.rim)),
+        table("rim_arms", bytemuck::cast_slice(&arms)),
+        table("surface_nodes", bytemuck::cast_slice(surface)),
+        table("boundary", bytemuck::cast_slice(&[surface, &mesh.rim].concat())),
+    ]);
     if choice.held {
-        b.filled(gpu, "held", &mesh.held.iter().map(|&bits| u32::from(bits)).collect::<Vec<u32>>());
+        let bits: Vec<u32> = mesh.held.iter().map(|&bits| u32::from(bits)).collect();
+        all.push(table("held", bytemuck::cast_slice(&bits)));
     }
-    if let (Some(road), true) = (road, choice.friction.is_some_and(|law| law.needs_area())) {
-        b.filled(gpu, "inverse_areas", &inverse_areas(mesh, |n| mesh.nodes[n as usize], road));
+    all
+}
+
+/// Buffers of `bodies` bodies with these tables, which they share, and this choice of kernels; those of the first one,
+/// still without its content.
+pub fn create(gpu: &Gpu, tables: &[Table], choice: &Choice, counts: &Counts, bodies: usize) -> Buffers {
+    let mut b = Buffers::default();
+    for table in tables {
+        match table.uniform {
+            Some(size) => {
+                b.uniform(gpu, table.name, size);
+                b.get(table.name).write(gpu, &table.bytes);
+            }
+            None => b.filled(gpu, table.name, &table.bytes),
+        }
     }
-    let (hi, lo) = split(&mesh.nodes, frame, &masses(model, choice.road));
-    b.filled(gpu, "positions", &hi);
+    let (nodes, surface, threads) = (counts.nodes, counts.surface, LANES * counts.chain_groups);
+    b.parts::<[f32; 4]>(gpu, "positions", nodes, bodies);
     if choice.plus {
-        b.filled(gpu, "positions_lo", &lo);
+        b.parts::<[f32; 4]>(gpu, "positions_lo", nodes, bodies);
     }
-    b.zeroed::<[f32; 4]>(gpu, "velocities", counts.nodes);
-    b.zeroed::<[f32; 4]>(gpu, "slots", chains.slot_count());
-    let threads = LANES * chains.groups.len();
-    b.zeroed::<[f32; 4]>(gpu, "energies", threads);
-    b.zeroed::<f32>(gpu, "viscous_work", if choice.viscous { threads } else { 1 });
-    b.zeroed::<RimSum>(gpu, "rim_sums", counts.rim);
-    b.zeroed::<SurfaceRecord>(gpu, "surface_sums", counts.surface);
-    b.zeroed::<[f32; 4]>(gpu, "surface_states", 2 * counts.surface);
-    b.zeroed::<u32>(gpu, "contact_states", counts.surface);
-    b.zeroed::<[f32; 4]>(gpu, "contact_steps", counts.contact_slots() * counts.surface.div_ceil(GROUP));
-    b.zeroed::<[f32; 4]>(gpu, "probes", 4 * counts.nodes.div_ceil(GROUP));
-    b.zeroed::<layout::RimState>(gpu, "rim_state", 1);
-    b.zeroed::<layout::RimState>(gpu, "rim_state_probe", 1);
+    b.parts::<[f32; 4]>(gpu, "velocities", nodes, bodies);
+    if bodies > 1 {
+        // A stage of one of them may have what needs it.
+        b.parts::<[f32; 2]>(gpu, "works", nodes, bodies);
+    }
+    b.parts::<[f32; 4]>(gpu, "slots", counts.slots, bodies);
+    b.parts::<[f32; 4]>(gpu, "energies", threads, bodies);
+    b.parts::<f32>(gpu, "viscous_work", if choice.viscous { threads } else { 1 }, bodies);
+    b.parts::<RimSum>(gpu, "rim_sums", counts.rim, bodies);
+    b.parts::<SurfaceRecord>(gpu, "surface_sums", surface, bodies);
+    b.parts::<[f32; 4]>(gpu, "surface_states", 2 * surface, bodies);
+    b.parts::<u32>(gpu, "contact_states", surface, bodies);
+    b.parts::<[f32; 4]>(gpu, "contact_steps", counts.contact_records(), bodies);
+    if choice.friction.is_some_and(|law| law.needs_area()) {
+        b.parts::<f32>(gpu, "inverse_areas", surface, bodies);
+    }
+    b.parts::<[f32; 4]>(gpu, "probes", 4 * nodes.div_ceil(GROUP), bodies);
+    b.parts::<layout::RimState>(gpu, "rim_state", 1, bodies);
+    b.parts::<layout::RimState>(gpu, "rim_state_probe", 1, bodies);
     for (name, width) in [
         ("partials_rim", 2),
         ("partials_viscous", 1),
@@ -118,16 +170,52 @@ pub fn upload(
         ("partials_probes", 4),
         ("partials_energies", 1),
     ] {
-        b.zeroed::<[f32; 4]>(gpu, name, width * PARTIALS);
+        b.parts::<[f32; 4]>(gpu, name, width * PARTIALS, bodies);
     }
-    b.filled(gpu, "failure", &[u32::MAX; 4]);
-    // No step has this index: a submission that does nothing is noticed, the first one too.
-    b.filled(gpu, "done", &[u32::MAX; 4]);
-    b.uniform(gpu, "step", PLAN * STEP_STRIDE);
-    b.zeroed::<layout::Step>(gpu, "plan", PLAN);
-    b.uniform(gpu, "batch", size_of::<layout::Batch>());
-    b.uniform(gpu, "shift", 16);
+    b.parts::<u32>(gpu, "failure", FLAGS, bodies);
+    b.parts::<u32>(gpu, "done", FLAGS, bodies);
+    b.parts::<layout::Step>(gpu, "plan", PLAN, bodies);
+    b.uniform(gpu, "members", MEMBERS * size_of::<layout::Member>());
     b
+}
+
+/// Bytes of the largest of a body's arrays that its step binds.
+pub fn largest_part(counts: &Counts) -> u64 {
+    let parts = [
+        (PLAN, size_of::<layout::Step>()),
+        (counts.contact_records(), size_of::<[f32; 4]>()),
+        (counts.nodes, size_of::<[f32; 4]>()),
+        (counts.slots, size_of::<[f32; 4]>()),
+        (counts.surface, size_of::<SurfaceRecord>()),
+    ];
+    parts.iter().map(|(count, size)| (part_stride(*count) * size) as u64).max().unwrap_or(1)
+}
+
+/// Gives a body's buffers what it starts with, and those that it has to itself.
+pub fn fill(
+    gpu: &Gpu,
+    b: &mut Buffers,
+    model: &Model,
+    choice: &Choice,
+    frame: [f64; 3],
+    road: Option<&Road>,
+) {
+    let mesh = &model.mesh;
+    let write = |b: &Buffers, name: &str, bytes: &[u8]| b.get(name).write(gpu, bytes);
+    let (hi, lo) = split(&mesh.nodes, frame, &masses(model, choice.road));
+    write(b, "positions", bytemuck::cast_slice(&hi));
+    if choice.plus {
+        write(b, "positions_lo", bytemuck::cast_slice(&lo));
+    }
+    if let (Some(road), true) = (road, b.has("inverse_areas")) {
+        let areas = inverse_areas(mesh, |n| mesh.nodes[n as usize], road);
+        write(b, "inverse_areas", bytemuck::cast_slice(&areas));
+    }
+    write(b, "failure", bytemuck::cast_slice(&[u32::MAX; FLAGS]));
+    // No step has this index: a submission that does nothing is noticed, the first one too.
+    write(b, "done", bytemuck::cast_slice(&[u32::MAX; FLAGS]));
+    b.uniform(gpu, "step", PLAN * STEP_STRIDE);
+    b.uniform(gpu, "shift", 16);
 }
 
 /// Positions relative to the frame, as single-precision hi and lo parts, with the masses beside them.

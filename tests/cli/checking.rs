@@ -90,6 +90,31 @@ fn programs_hold_only_what_the_scene_uses() {
     assert!(bindings(&bar, "boundary").contains(&"rim_sums".into()));
 }
 
+/// The kernel of small meshes is there where it would be taken, with what the stage has and no more.
+#[test]
+fn a_mesh_for_one_work_group_has_its_kernel() {
+    let place = Place::new();
+    let kernels = |arguments: &[&str]| -> Vec<String> {
+        let check = check(&place, arguments);
+        let programs = check["gpu"]["programs"].as_array().unwrap();
+        programs.iter().map(|p| p["kernel"].as_str().unwrap().to_string()).collect()
+    };
+    let wheel = shipped("lat100_straight_viscous.toml");
+    assert!(kernels(&[&wheel]).contains(&"resident".into()));
+    assert!(
+        !kernels(&[&wheel, "--set", "body.mesh.elements=[44, 5, 5]"]).contains(&"resident".into()),
+        "1,584 nodes"
+    );
+    let free = shipped("lat100_free_rolling.toml");
+    let check = check(&place, &[&free]);
+    let stages = strings(&program(&check, "resident")["stages"]);
+    let rolling = strings(&program(&check, "rim")["stages"]);
+    assert!(
+        !rolling.is_empty() && rolling.iter().all(|stage| !stages.contains(stage)),
+        "{stages:?} {rolling:?}"
+    );
+}
+
 #[test]
 fn memory_grows_with_the_mesh() {
     let place = Place::new();

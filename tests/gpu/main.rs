@@ -8,6 +8,7 @@
 #![allow(non_snake_case)] // X: reference positions
 
 mod contact;
+mod ensemble;
 mod errors;
 mod far;
 mod forces;
@@ -28,7 +29,7 @@ use std::sync::Arc;
 
 type Check = fn(&Gpu);
 
-const CHECKS: [(&str, Check); 22] = [
+const CHECKS: [(&str, Check); 25] = [
     ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
     ("forces_as_pairs_are_the_cpus", forces::pairs),
     ("forces_of_every_numbering_are_the_cpus", forces::every_numbering),
@@ -43,6 +44,9 @@ const CHECKS: [(&str, Check); 22] = [
     ("far_from_the_origin_forces_are_the_same", far::offset),
     ("the_frame_follows_a_fast_wheel", far::followed),
     ("a_mesh_in_one_work_group_moves_as_elsewhere", resident::agrees),
+    ("bodies_together_have_the_bits_they_have_alone", ensemble::as_alone),
+    ("bodies_driven_by_one_thread_have_them_too", ensemble::by_one_thread),
+    ("an_ensemble_of_what_does_not_fit_is_refused", ensemble::too_large),
     ("timed_steps_are_the_steps", timing::passes),
     ("limits_of_the_adapter_are_measured", timing::limits),
     ("a_run_that_goes_wrong_says_where", errors::failures),

@@ -8,10 +8,14 @@ use serde::Serialize;
 use crate::engine::StageSetup;
 use crate::gpu::chains::{self, Chains};
 use crate::gpu::compose::{Choice, Kernel, RimKind};
-use crate::gpu::order;
+use crate::gpu::{Shape, order};
 use crate::model::Model;
 use crate::scene::{Drive, Scene};
 use crate::{Error, Result};
+
+/// Threads and memory [bytes] of a work group that every GPU of a desktop has at least.
+const THREADS: usize = 256;
+const MEMORY: usize = 32 << 10;
 
 /// Programs and buffers of the single-precision GPU engine.
 #[derive(Debug, Serialize)]
@@ -75,7 +79,8 @@ impl GpuPlan {
                 _ => None,
             });
             let choice = scene_choice.for_stage(&StageSetup { mass_damping: stage.mass_damping, free });
-            for (kernel, runs) in stage_kernels(&choice) {
+            let small = Shape::within(THREADS, MEMORY, &chains, model.node_count()).is_some();
+            for (kernel, runs) in stage_kernels(&choice, small) {
                 let new = program(&choice, kernel, runs)?;
                 match programs.iter_mut().find(|p| p.parts == new.parts) {
                     Some(known) => known.stages.push(stage.name.clone()),
@@ -120,13 +125,18 @@ fn scene_kernels(scene: &Scene) -> Vec<(Kernel, &'static str)> {
 }
 
 /// Programs that depend on the stage's damping and rim.
-fn stage_kernels(choice: &Choice) -> Vec<(Kernel, &'static str)> {
+fn stage_kernels(choice: &Choice, small: bool) -> Vec<(Kernel, &'static str)> {
     let mut kernels = vec![(Kernel::Node, "every step"), (Kernel::NodeProbe, "every window")];
     if choice.road || choice.rim != RimKind::None {
         kernels.insert(1, (Kernel::Boundary, "every step"));
     }
     if choice.rim == RimKind::Free {
         kernels.insert(0, (Kernel::Rim, "every step"));
+    } else if small {
+        kernels.push((
+            Kernel::Resident,
+            "many steps at once, in place of their passes, on a GPU with 32 KiB a work group",
+        ));
     }
     kernels
 }

@@ -1,0 +1,102 @@
+//! A body ready for the device: everything that is decided on the host.
+
+use super::Gpu;
+use super::buffers::{self, Buffers};
+use super::chains::{self, Chains};
+use super::compose::{Choice, RimKind};
+use super::engine::Counts;
+use super::order::{self, Order, Ordered};
+use super::resident::Shape;
+use super::upload::{self, Table};
+use crate::error::Result;
+use crate::model::mesh::Mesh;
+use crate::model::{Model, frame};
+use crate::scene::{Friction, Scene};
+
+/// A body in the device's numbers.
+pub struct Prepared {
+    pub model: Model,
+    /// The model's numbers by the device's, where they differ.
+    pub order: Option<Order>,
+    /// The mesh in the model's numbers, where friction looks at pressure.
+    pub mesh: Option<Mesh>,
+    pub choice: Choice,
+    pub counts: Counts,
+    pub constants: Vec<(&'static str, f64)>,
+    pub tables: Vec<Table>,
+    /// How it fits into one work group, if it does.
+    pub shape: Option<Shape>,
+    pub scene: Scene,
+    pub grain: f64,
+    pub frame: [f64; 3],
+}
+
+impl Prepared {
+    /// `plus`: positions as hi + lo pairs.
+    ///
+    /// # Errors
+    /// It does not fit the adapter's limits.
+    pub fn new(gpu: &Gpu, model: &Model, scene: &Scene, plus: bool) -> Result<Prepared> {
+        let mesh = scene.friction.filter(Friction::needs_area).map(|_| model.mesh.clone());
+        let Ordered { model, order } = order::ordered(model);
+        let model = model.into_owned();
+        let chains = Chains::new(&model, chains::longest(gpu.report.software, model.element_count()));
+        buffers::check_limits(gpu, &model, &chains, scene.road.is_some())?;
+        let choice = Choice {
+            element: model.element,
+            law: model.law,
+            viscous: model.viscosity.is_some(),
+            road: scene.road.is_some(),
+            friction: scene.friction,
+            held: !model.mesh.held.is_empty(),
+            gravity: scene.gravity != [0.0; 3],
+            damping: false,
+            rim: if model.mesh.rim.is_empty() { RimKind::None } else { RimKind::Prescribed },
+            plus,
+            shared_classes: chains.shared_classes,
+            lattice: chains.lattice.is_some(),
+        };
+        let counts = Counts {
+            elements: model.element_count(),
+            nodes: model.node_count(),
+            surface: if choice.road { model.mesh.surface.len() } else { 0 },
+            rim: model.mesh.rim.len(),
+            chain_groups: chains.groups.len(),
+            slots: chains.slot_count(),
+            most_groups: gpu.report.workgroups,
+        };
+        let grain = frame::grain(&model.mesh);
+        Ok(Prepared {
+            mesh,
+            choice,
+            constants: upload::constants(&model, scene, &chains),
+            tables: upload::tables(&model, &chains, &choice),
+            shape: if plus { None } else { Shape::new(gpu, &chains, counts.nodes) },
+            counts,
+            scene: scene.clone(),
+            frame: frame::shift(grain, model.mesh.axle, [0.0; 3], scene.road.as_ref()),
+            grain,
+            order,
+            model,
+        })
+    }
+
+    /// Whether one dispatch can take the steps of both: same kernels with the same constants, same tables.
+    pub fn is_alike(&self, other: &Prepared) -> bool {
+        self.choice == other.choice
+            && self.constants == other.constants
+            && self.shape == other.shape
+            && self.tables == other.tables
+    }
+
+    /// Bodies of this kind whose arrays the adapter can bind as one.
+    pub fn most_bodies(&self, gpu: &Gpu) -> usize {
+        let most = gpu.report.storage_binding.min(gpu.report.buffer);
+        (most / upload::largest_part(&self.counts)).max(1) as usize
+    }
+
+    /// Buffers for so many bodies of this kind; the first one's.
+    pub fn buffers(&self, gpu: &Gpu, bodies: usize) -> Buffers {
+        upload::create(gpu, &self.tables, &self.choice, &self.counts, bodies)
+    }
+}
