@@ -115,14 +115,14 @@ fn ensemble() {
     let place = Place::new();
     place.scene("block.toml", |text| text);
     let sweep = |more: &[&str]| {
-        let over = ["--over", "friction.coefficient=0.2,0.4", "--over", "dt-safety=0.8,0.9"];
+        let over = ["--over", "friction.coefficient=0.2,0.4", "--over", "dt-safety=0.3,0.9"];
         place.hexroll(&[&["sweep", "block.toml"], &over[..], more].concat())
     };
     sweep(&["--engine", "cpu", "--out", "cpu"]).expect(0);
     sweep(&["--ensemble", "--out", "gpu"]).expect(0);
     let mut steps = Vec::new();
     for mu in ["0.2", "0.4"] {
-        for safety in ["0.8", "0.9"] {
+        for safety in ["0.3", "0.9"] {
             let run = format!("friction.coefficient_{mu}_dt-safety_{safety}");
             let summary = read::summary(&place.path(&format!("gpu/{run}"))).unwrap().unwrap();
             assert_eq!((summary.engine.as_str(), summary.precision.as_str()), ("gpu", "f32"));
