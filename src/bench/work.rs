@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use super::counting::{Counted, Operations, count};
 use crate::model::Model;
-use crate::physics::element::{Class, Corners, ExtrudedQ1p0, Formulation, Full, Q1p0, UniformGradient};
+use crate::physics::element::{
+    Class, Corners, ExtrudedQ1p0, ExtrudedUniformGradient, Formulation, Full, Q1p0, UniformGradient,
+};
 use crate::physics::material::{
     Inviscid, KelvinVoigt, Law, MooneyRivlin, MooneyRivlinEq4, NeoHookean, Viscosity,
 };
@@ -54,6 +56,9 @@ pub fn element_operations<T: Real>(model: &Model) -> Operations {
         scene::Element::Q1p0 if model.is_extruded() => with_law::<T, ExtrudedQ1p0>(model),
         scene::Element::Q1p0 => with_law::<T, Q1p0>(model),
         scene::Element::Full => with_law::<T, Full>(model),
+        scene::Element::UniformGradient { .. } if model.is_extruded() => {
+            with_law::<T, ExtrudedUniformGradient>(model)
+        }
         scene::Element::UniformGradient { .. } => with_law::<T, UniformGradient>(model),
     }
 }

@@ -7,7 +7,8 @@ use super::state::{Aligned, View};
 use crate::model::Model;
 use crate::model::chains::{BACK, FRONT};
 use crate::physics::element::{
-    Class, Corners, ExtrudedQ1p0, Formulation, Full, LaneShapes, Q1p0, UniformGradient,
+    Class, Corners, ExtrudedQ1p0, ExtrudedUniformGradient, Formulation, Full, LaneShapes, Q1p0,
+    UniformGradient,
 };
 use crate::physics::lanes::{Array, Lanes, Level, WIDEST, first};
 use crate::physics::material::{Law, Viscosity};
@@ -456,6 +457,9 @@ macro_rules! build {
                     }
                     scene::Element::Q1p0 => with_formulation::<Q1p0>(law, viscosity, level),
                     scene::Element::Full => with_formulation::<Full>(law, viscosity, level),
+                    scene::Element::UniformGradient { .. } if model.is_extruded() => {
+                        with_formulation::<ExtrudedUniformGradient>(law, viscosity, level)
+                    }
                     scene::Element::UniformGradient { .. } => {
                         with_formulation::<UniformGradient>(law, viscosity, level)
                     }

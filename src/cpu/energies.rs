@@ -1,11 +1,13 @@
-//! Stored energies, once a sample: in double precision whatever the engine's, four elements at a time where the
-//! machine can.
+//! Stored energies, once a sample: in double precision whatever the engine's, four or eight elements at a time where
+//! the machine can.
 
 use super::family::{LawFamily, MooneyRivlinEq4Law, MooneyRivlinLaw, NeoHookeanLaw};
 use super::layout::Item;
 use crate::engine::EnergyTotals;
 use crate::physics::element::{Class, Corners, Energy, Formulation, Full, Q1p0, SameShape, UniformGradient};
 use crate::physics::lanes::{Array, Lanes, Level};
+#[cfg(target_arch = "x86_64")]
+use crate::physics::lanes::{F64x4, F64x8};
 use crate::physics::material::Law;
 use crate::physics::scalar::Real;
 use crate::scene;
@@ -40,15 +42,30 @@ impl Stored {
     }
 
     fn sum<F: Formulation, L: LawFamily, T: Real>(&self, items: &[Item], x: [&[T]; 3]) -> EnergyTotals {
+        #[cfg(target_arch = "x86_64")]
+        match self.level {
+            Level::Avx512 => return self.sum_by::<F, L, T, WIDE>(items, x, avx512::<F, L>),
+            Level::Avx2 => return self.sum_by::<F, L, T, WIDTH>(items, x, avx2::<F, L>),
+            Level::Portable => {}
+        }
+        self.sum_by::<F, L, T, WIDTH>(items, x, batch_in::<Array<f64, WIDTH>, F, L, WIDTH>)
+    }
+
+    fn sum_by<F: Formulation, L: LawFamily, T: Real, const W: usize>(
+        &self,
+        items: &[Item],
+        x: [&[T]; 3],
+        batch: impl Fn(&scene::Law, &Class<f64>, &Gathered<W>) -> Batch<W>,
+    ) -> EnergyTotals {
         let mut totals = EnergyTotals::default();
-        let mut corners = [[[0.0; WIDTH]; 3]; 8];
+        let mut corners = [[[0.0; W]; 3]; 8];
         for item in items {
             let mut rest = item.elements();
             while let Some(&first) = rest.first() {
                 let class = self.class_of[first as usize];
                 let alike = |e: &&u32| self.class_of[**e as usize] == class;
-                let count = rest.iter().take(WIDTH).take_while(alike).count();
-                for lane in 0..WIDTH {
+                let count = rest.iter().take(W).take_while(alike).count();
+                for lane in 0..W {
                     let hex = &self.hexes[rest[lane.min(count - 1)] as usize];
                     for (corner, &n) in corners.iter_mut().zip(hex) {
                         for d in 0..3 {
@@ -56,7 +73,7 @@ impl Stored {
                         }
                     }
                 }
-                let energy = self.batch::<F, L>(&self.classes[class as usize], &corners);
+                let energy = batch(&self.law, &self.classes[class as usize], &corners);
                 for lane in 0..count {
                     totals.strain += energy.strain[lane];
                     totals.hourglass += energy.hourglass[lane];
@@ -67,52 +84,72 @@ impl Stored {
         }
         totals
     }
-
-    fn batch<F: Formulation, L: LawFamily>(&self, class: &Class<f64>, x: &Gathered) -> Batch {
-        #[cfg(target_arch = "x86_64")]
-        if self.level >= Level::Avx2 {
-            use crate::physics::lanes::F64x4;
-            #[target_feature(enable = "avx2,fma")]
-            fn avx2<F: Formulation, L: LawFamily>(
-                law: &scene::Law,
-                class: &Class<f64>,
-                x: &Gathered,
-            ) -> Batch {
-                batch_in::<F64x4, F, L>(law, class, x)
-            }
-            // SAFETY: the level says that the machine has the instructions.
-            return unsafe { avx2::<F, L>(&self.law, class, x) };
-        }
-        batch_in::<Array<f64, WIDTH>, F, L>(&self.law, class, x)
-    }
 }
 
 /// Elements at a time.
 const WIDTH: usize = 4;
-type Gathered = [[[f64; WIDTH]; 3]; 8];
+#[cfg(target_arch = "x86_64")]
+const WIDE: usize = 8;
+type Gathered<const W: usize> = [[[f64; W]; 3]; 8];
 
-struct Batch {
-    strain: [f64; WIDTH],
-    hourglass: [f64; WIDTH],
-    min_j: [f64; WIDTH],
+struct Batch<const W: usize> {
+    strain: [f64; W],
+    hourglass: [f64; W],
+    min_j: [f64; W],
+}
+
+#[cfg(target_arch = "x86_64")]
+fn avx2<F: Formulation, L: LawFamily>(
+    law: &scene::Law,
+    class: &Class<f64>,
+    x: &Gathered<WIDTH>,
+) -> Batch<WIDTH> {
+    #[target_feature(enable = "avx2,fma")]
+    fn inner<F: Formulation, L: LawFamily>(
+        law: &scene::Law,
+        class: &Class<f64>,
+        x: &Gathered<WIDTH>,
+    ) -> Batch<WIDTH> {
+        batch_in::<F64x4, F, L, WIDTH>(law, class, x)
+    }
+    // SAFETY: it is called at the level that says that the machine has the instructions.
+    unsafe { inner::<F, L>(law, class, x) }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn avx512<F: Formulation, L: LawFamily>(
+    law: &scene::Law,
+    class: &Class<f64>,
+    x: &Gathered<WIDE>,
+) -> Batch<WIDE> {
+    #[target_feature(enable = "avx512f,fma")]
+    fn inner<F: Formulation, L: LawFamily>(
+        law: &scene::Law,
+        class: &Class<f64>,
+        x: &Gathered<WIDE>,
+    ) -> Batch<WIDE> {
+        batch_in::<F64x8, F, L, WIDE>(law, class, x)
+    }
+    // SAFETY: it is called at the level that says that the machine has the instructions.
+    unsafe { inner::<F, L>(law, class, x) }
 }
 
 #[inline(always)]
-fn batch_in<N: Lanes<Real = f64>, F: Formulation, L: LawFamily>(
+fn batch_in<N: Lanes<Real = f64>, F: Formulation, L: LawFamily, const W: usize>(
     law: &scene::Law,
     class: &Class<f64>,
-    x: &Gathered,
-) -> Batch {
+    x: &Gathered<W>,
+) -> Batch<W> {
     let law = <L::Law<N> as Law<N>>::new(law);
     let mut corners: Corners<N> = [[N::zero(); 3]; 8];
     for c in 0..8 {
         for d in 0..3 {
-            // SAFETY: WIDTH is that of the lanes.
+            // SAFETY: W is the width of the lanes.
             corners[c][d] = unsafe { N::load(x[c][d].as_ptr(), 0) };
         }
     }
     let Energy { strain, hourglass, min_j } = F::energy(&law, &SameShape(class), &corners);
-    let mut batch = Batch { strain: [0.0; WIDTH], hourglass: [0.0; WIDTH], min_j: [0.0; WIDTH] };
+    let mut batch = Batch { strain: [0.0; W], hourglass: [0.0; W], min_j: [0.0; W] };
     // SAFETY: as above.
     unsafe {
         strain.store(batch.strain.as_mut_ptr(), 0);

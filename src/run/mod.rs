@@ -399,8 +399,9 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Finds the critical step again, and decides how long to trust it: twice as long while it stays within 0.2 %,
-    /// half as long where it moves by more than 1 % (the safety factor covers 10 %).
+    /// Finds the critical step again, and decides how long to trust it: twice as long while it stays within 0.2 %, four
+    /// times while within a quarter of that, half as long where it moves by more than 1 % (the safety factor covers
+    /// 5 to 10 %).
     fn refresh(&mut self) -> Result<()> {
         const SHORTEST: u64 = 200;
         const LONGEST: u64 = 6_400;
@@ -412,6 +413,7 @@ impl<'a> Run<'a> {
         let change = if first { 1.0 } else { (new.dt / self.critical.dt - 1.0).abs() };
         self.refresh_interval = match self.refresh_interval {
             0 => SHORTEST,
+            i if change < 5e-4 => (4 * i).min(LONGEST),
             i if change < 2e-3 => (2 * i).min(LONGEST),
             i if change > 1e-2 => (i / 2).max(SHORTEST),
             i => i,

@@ -12,6 +12,9 @@ use crate::model::Model;
 
 /// Residual of the eigenvalue, relative: the step is known to half of it.
 const TOLERANCE: f64 = 1e-3;
+/// Share of all modes in the start from the mode found before: enough for another to grow, which it does by a factor or more
+/// an iteration, and little to be rid of.
+const NEW: f64 = 0.01;
 /// Iterations after which the bound (value plus residual) is taken as it is.
 const MOST: usize = 120;
 
@@ -98,7 +101,7 @@ pub fn assembled(
         // A little of everything, so that a mode orthogonal to the last one can grow.
         Some(c) if c.vector.len() == mass.len() => {
             let noise = spread(mass.len(), |i| !held[i]);
-            let scale = 0.05 / mass.iter().zip(&noise).map(|(m, n)| m * n * n).sum::<f64>().sqrt();
+            let scale = NEW / mass.iter().zip(&noise).map(|(m, n)| m * n * n).sum::<f64>().sqrt();
             c.vector.iter().zip(&noise).map(|(v, n)| v + scale * n).collect()
         }
         _ => spread(mass.len(), |i| !held[i]),

@@ -20,6 +20,36 @@ pub type Corners<S> = [Vec3<S>; 8];
 pub const EDGES: [[(usize, usize); 4]; 3] =
     [[(0, 1), (3, 2), (4, 5), (7, 6)], [(0, 3), (1, 2), (4, 7), (5, 6)], [(0, 4), (1, 5), (3, 7), (2, 6)]];
 
+/// See [`Class::extruded`]; of elements that are not extruded, parts of what they have.
+fn extruded(X: &Corners<f64>, gradient: &Corners<f64>) -> [f64; 9] {
+    use crate::model::mesh::SIGNS;
+    // A field's share of a pattern: products of the signs of xi, eta, zeta.
+    let share = |of: &Corners<f64>, along: [bool; 3]| {
+        let sign = |a: usize| (0..3).filter(|&d| along[d]).map(|d| SIGNS[a][d]).product::<f64>();
+        (0..8).fold([0.0; 3], |sum, a| axpy(of[a], 0.125 * sign(a), sum))
+    };
+    let unit = |v: Vec3<f64>| scale(v, 1.0 / dot(v, v).sqrt());
+    let (xi, eta, zeta) = ([true, false, false], [false, true, false], [false, false, true]);
+    let e2 = unit(share(X, eta));
+    let side = share(X, xi);
+    let e1 = unit(axpy(e2, -dot(side, e2), side));
+    let e3 = cross(e1, e2);
+    let (b_xi, b_zeta) = (share(gradient, xi), share(gradient, zeta));
+    let axial = |along| dot(share(gradient, along), e2);
+    let bent = scale(share(X, [true, false, true]), 8.0);
+    [
+        dot(b_xi, e1),
+        dot(b_xi, e3),
+        dot(b_zeta, e1),
+        dot(b_zeta, e3),
+        axial(eta),
+        axial([true, true, false]),
+        axial([false, true, true]),
+        dot(bent, e1),
+        dot(bent, e3),
+    ]
+}
+
 /// Hourglass patterns Gamma_h: eta zeta, xi zeta, xi eta, xi eta zeta at the corners.
 pub const HOURGLASS: [[f64; 8]; 4] = [
     [1., 1., -1., -1., -1., -1., 1., 1.],
@@ -236,11 +266,16 @@ pub struct Class<S> {
     /// Hourglass stiffness c G V sum_a |b_a|^2 / 8 [N/m], and the same with eta for G [N s/m].
     pub hourglass_stiffness: S,
     pub hourglass_viscosity: S,
+    /// Of an extruded element (see [`Class::is_extruded`]), along its own axes e1, e2 (extrusion) and e3: the parts of
+    /// b_a, which are b . e1 and b . e3 = c xi_a + d zeta_a and b . e2 = eta_a (c + d xi_a + e zeta_a), in the order
+    /// (xi: 1, 3), (zeta: 1, 3), eta, xi eta, eta zeta [1/m]; and Gamma . X of the pattern xi zeta along e1 and e3 [m], the only one
+    /// that is not zero.
+    pub extruded: [S; 9],
 }
 
 impl<S> Class<S> {
     /// Numbers of a class.
-    pub const NUMBERS: usize = 8 * (6 + 1 + 1) + 2 + 8 * 3 + 4 * 3 + 2;
+    pub const NUMBERS: usize = 8 * (6 + 1 + 1) + 2 + 8 * 3 + 4 * 3 + 2 + 9;
 
     /// All of them, in the order of the fields.
     #[inline(always)]
@@ -301,6 +336,10 @@ pub trait Shape<S: Scalar> {
     #[inline(always)]
     fn hourglass_viscosity(&self) -> S {
         self.number(103)
+    }
+    #[inline(always)]
+    fn extruded(&self, i: usize) -> S {
+        self.number(104 + i)
     }
 }
 
@@ -376,6 +415,7 @@ impl Class<f64> {
             gamma_x,
             hourglass_stiffness: hourglass_modulus * volume * b2 / 8.0,
             hourglass_viscosity: hourglass_eta * volume * b2 / 8.0,
+            extruded: extruded(X, &gradient),
         })
     }
 
@@ -409,6 +449,7 @@ impl Class<f64> {
             gamma_x: self.gamma_x.map(v),
             hourglass_stiffness: s(self.hourglass_stiffness),
             hourglass_viscosity: s(self.hourglass_viscosity),
+            extruded: self.extruded.map(s),
         }
     }
 }

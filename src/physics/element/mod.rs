@@ -18,7 +18,7 @@ mod uniform_gradient;
 pub use full::Full;
 pub use hex8::{Class, Corners, LaneShapes, SameShape, Shape};
 pub use q1p0::{ExtrudedQ1p0, Q1p0};
-pub use uniform_gradient::UniformGradient;
+pub use uniform_gradient::{ExtrudedUniformGradient, UniformGradient};
 
 use super::material::{Law, Viscosity};
 use super::scalar::Scalar;

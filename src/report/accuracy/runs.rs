@@ -103,17 +103,23 @@ const SHORT: f64 = 0.3;
 /// Output window of the runs [s].
 const WINDOW: f64 = 1e-3;
 
-/// Measures the errors of the matrix; `done` hears of every row.
+/// Measures the errors of the matrix; `done` hears of every row, and of every run of a reference.
 ///
 /// # Errors
 /// A run that fails, or no adapter where the GPU is asked for.
-pub fn measure(matrix: &Matrix, mut done: impl FnMut(&Row)) -> Result<Measured> {
+pub fn measure(matrix: &Matrix, mut done: impl FnMut(&dyn std::fmt::Display)) -> Result<Measured> {
     let gpu = if matrix.gpu > 0 { Some(Gpu::open(None)?) } else { None };
     let mut measured = Measured::default();
     for &problem in &matrix.problems {
         let mut known = Known { matrix, gpu: gpu.as_ref(), problem, runs: HashMap::new() };
         let finest = matrix.meshes.iter().copied().fold(matrix.reference, usize::max);
-        let reference = Reference::find(problem, finest, |setting| known.run(setting))?;
+        let reference = Reference::find(problem, finest, |setting| {
+            let begun = Instant::now();
+            let run = known.run(setting)?;
+            let (mesh, value, seconds) = (setting.mesh, run.value, begun.elapsed().as_secs_f64());
+            done(&format_args!("{:9} reference x{mesh}: {value:.6e} in {seconds:.0} s", problem.name()));
+            Ok(run)
+        })?;
         for setting in matrix.settings() {
             let row = known.row(&setting, &reference)?;
             done(&row);
