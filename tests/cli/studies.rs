@@ -41,7 +41,9 @@ fn a_study_extrapolates_and_keeps_what_has_run() {
         let dir = place.path(&format!("runs/study/pressed_block/refine_{}", k + 1));
         let summary = read::summary(&dir).unwrap().unwrap();
         assert!(summary.finished);
-        assert_eq!(summary.stages.last().unwrap().mean_road_fz_N, *cell);
+        // A number that has been through JSON may have lost its last digit.
+        let mean = summary.stages.last().unwrap().mean_road_fz_N;
+        assert!((mean - cell).abs() <= 1e-12 * cell.abs(), "{mean} {cell}");
     }
 
     // One run is lost; the same command makes that one only, and the same report but for the wall time.

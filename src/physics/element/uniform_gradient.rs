@@ -241,7 +241,8 @@ mod tests {
     fn an_extruded_element_has_the_forces_of_any_element() {
         let given = scene::Law::MooneyRivlin { g0: 4e7, g1: 1e6, g2: 3e5 };
         let law = <MooneyRivlin<f64> as Law<f64>>::new(&given);
-        let (still, moving) = (Inviscid::new(0.0), KelvinVoigt::new(20.0));
+        let still = <Inviscid as Viscosity<f64>>::new(0.0);
+        let moving = <KelvinVoigt<f64> as Viscosity<f64>>::new(20.0);
         let mut state = 7u64;
         let mut next = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
