@@ -2,9 +2,9 @@
 //!
 //! Every body has an engine of its own, driven by a thread of its own, with its own stages, windows and steps. When each of
 //! them waits for steps to be taken, one thread submits those of all. Bodies with the same kernels and tables are *alike*:
-//! their arrays are parts of the same buffers, and one dispatch takes the steps of all that wait. Others have dispatches
-//! of their own in the same pass, with nothing between them to wait for. A body alone is dispatched by the same
-//! kernel, so that its results do not depend on who else is there, to the bit.
+//! their arrays are parts of the same buffers, and one dispatch takes the steps of all that wait and are in the same kind of
+//! stage. Others have dispatches of their own in the same pass, with nothing between them to wait for. A body alone is
+//! dispatched by the same kernel, so that its results do not depend on who else is there, to the bit.
 
 use super::Gpu;
 use super::buffers::Slice;
@@ -20,6 +20,7 @@ use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::physics::rim::Coordinates;
 use crate::scene::Scene;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
@@ -97,7 +98,10 @@ pub fn advance_together(engines: &mut [GpuEngine], steps: &[Step]) -> Result<()>
         };
         let jobs = engines.iter().zip(&begun).map(job).collect::<Result<Vec<Job>>>()?;
         let taken = together.try_submit(&jobs)?;
-        engines.iter_mut().zip(&taken).for_each(|(engine, taken)| engine.took(&steps[at..end], taken));
+        for (engine, taken) in engines.iter_mut().zip(&taken) {
+            engine.took(&steps[at..end], taken);
+            engine.learn(end - at, taken);
+        }
         at = end;
     }
     engines.iter_mut().zip(&begun).try_for_each(|(engine, (first, _))| engine.end_steps(steps, *first))
@@ -204,11 +208,14 @@ impl Together {
         }
     }
 
-    /// Takes the steps of all jobs; what each has to be told.
+    /// Takes the steps of all jobs; what each has to be told. Whatever goes wrong, nobody is left waiting.
     fn submit(&self, jobs: &[Job]) -> Vec<Result<Taken>> {
-        match self.try_submit(jobs) {
-            Ok(taken) => taken.into_iter().map(Ok).collect(),
-            Err(error) => jobs.iter().map(|_| Err(self.gpu.error(error.to_string()))).collect(),
+        let failed = |detail: String| jobs.iter().map(|_| Err(self.gpu.error(detail.clone()))).collect();
+        match catch_unwind(AssertUnwindSafe(|| self.try_submit(jobs))) {
+            Ok(Ok(taken)) => taken.into_iter().map(Ok).collect(),
+            Ok(Err(Error::Device { detail, .. })) => failed(detail),
+            Ok(Err(error)) => failed(error.to_string()),
+            Err(_) => failed("a submission of several bodies panicked".into()),
         }
     }
 

@@ -212,7 +212,16 @@ impl GpuEngine {
             }
         };
         self.took(steps, &taken);
+        self.learn(steps.len(), &taken);
         Ok(())
+    }
+
+    /// Adapts the length of submissions to the time that one of `steps` steps took.
+    pub(super) fn learn(&mut self, steps: usize, taken: &Taken) {
+        if !self.fixed_submits {
+            let most = SUBMIT.as_secs_f64() * steps as f64 / taken.seconds;
+            self.steps_per_submit = (most as usize).clamp(1, self.counts.contact_slots());
+        }
     }
 
     /// Steps that are written, to be taken together with those of others; `None` where no kernel can.
@@ -254,10 +263,6 @@ impl GpuEngine {
         self.steps += steps.len() as u64;
         self.window_steps += steps.len() as u64;
         self.flags = taken.flags;
-        if !self.fixed_submits {
-            let most = SUBMIT.as_secs_f64() * steps.len() as f64 / taken.seconds;
-            self.steps_per_submit = (most as usize).clamp(1, self.counts.contact_slots());
-        }
         if self.counts.surface > 0 {
             let each = taken.contact.chunks_exact(self.contact_groups());
             self.step_contact.extend(steps.iter().zip(each).map(|(step, sums)| step_contact(step, sums)));
