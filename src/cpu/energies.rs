@@ -44,14 +44,14 @@ impl Stored {
     fn sum<F: Formulation, L: LawFamily, T: Real>(&self, items: &[Item], x: [&[T]; 3]) -> EnergyTotals {
         #[cfg(target_arch = "x86_64")]
         match self.level {
-            Level::Avx512 => return self.sum_by::<F, L, T, WIDE>(items, x, avx512::<F, L>),
-            Level::Avx2 => return self.sum_by::<F, L, T, WIDTH>(items, x, avx2::<F, L>),
+            Level::Avx512 => return self.sum_by::<T, WIDE>(items, x, avx512::<F, L>),
+            Level::Avx2 => return self.sum_by::<T, WIDTH>(items, x, avx2::<F, L>),
             Level::Portable => {}
         }
-        self.sum_by::<F, L, T, WIDTH>(items, x, batch_in::<Array<f64, WIDTH>, F, L, WIDTH>)
+        self.sum_by::<T, WIDTH>(items, x, batch_in::<Array<f64, WIDTH>, F, L, WIDTH>)
     }
 
-    fn sum_by<F: Formulation, L: LawFamily, T: Real, const W: usize>(
+    fn sum_by<T: Real, const W: usize>(
         &self,
         items: &[Item],
         x: [&[T]; 3],
