@@ -12,7 +12,7 @@ use hexroll::cpu::{Precision, element_forces, engine, engine_at};
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
 use hexroll::physics::lanes::Level;
-use hexroll::scene::{Drive, Scene};
+use hexroll::scene::{Drive, Element, Scene};
 
 /// Elements and nodes in random order.
 fn shuffled(mesh: &Mesh, random: &mut Random) -> Mesh {
@@ -69,11 +69,29 @@ fn relative(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     (difference / b.iter().flatten().map(|b| square(*b)).sum::<f64>()).sqrt()
 }
 
+/// Elements one by one are computed without what the engine knows of their shapes: that none of their numbers is zero because
+/// a figure is extruded.
 #[test]
 fn forces_are_those_of_elements_one_by_one() {
+    forces_are_plain(Element::Q1p0);
+}
+
+#[test]
+fn forces_of_mean_gradients_are_those_of_elements_one_by_one() {
+    forces_are_plain(Element::UniformGradient { hourglass: 0.15 });
+}
+
+fn forces_are_plain(element: Element) {
     let mut random = Random::new(7);
-    let (ring, long, cube) =
-        (wheel([44, 2, 3], 0.5), block([0.1, 0.02, 0.02], [21, 3, 3]), block([0.02, 0.02, 0.02], [3, 3, 3]));
+    let of = |mut scene: Scene| {
+        scene.body.element = element;
+        scene
+    };
+    let (ring, long, cube) = (
+        of(wheel([44, 2, 3], 0.5)),
+        of(block([0.1, 0.02, 0.02], [21, 3, 3])),
+        of(block([0.02, 0.02, 0.02], [3, 3, 3])),
+    );
     let cases: Vec<(&str, &Scene, Model)> = vec![
         ("closed rows", &ring, model(&ring, |_| {})),
         ("open rows", &long, model(&long, |_| {})),
