@@ -10,7 +10,7 @@ use common::block;
 use hexroll::cpu::{Precision, engine_at};
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
-use hexroll::physics::lanes::{Array, Lanes, Level};
+use hexroll::physics::lanes::{Array, Lanes, Level, Portable32, Portable64};
 use hexroll::physics::scalar::{Real, Scalar};
 use hexroll::scene::Scene;
 
@@ -116,4 +116,57 @@ fn the_reciprocal_cube_root_is_exact_to_the_last_digits() {
     // Four (three) Newton steps from 4 %: below the rounding of the last one, about two units in the last place.
     check::<Array<f64, 2>>(8e-16);
     check::<Array<f32, 4>>(5e-7);
+    check::<Portable64>(8e-16);
+    check::<Portable32>(5e-7);
+}
+
+/// Everything that moves or compares lanes, against what it says of each lane.
+#[test]
+fn lanes_move_and_compare_as_they_say() {
+    fn check<N: Lanes>() {
+        let real = |v: f64| <N::Real as Scalar>::from_f64(v);
+        let all = |f: &dyn Fn(usize) -> f64| (0..N::WIDTH).map(|i| real(f(i))).collect::<Vec<N::Real>>();
+        let of = |v: &[N::Real]| unsafe { N::load(v.as_ptr(), 0) };
+        let list = |n: N| (0..N::WIDTH).map(|i| n.lane(i).to_f64()).collect::<Vec<f64>>();
+        let (a, b) = (all(&|i| i as f64 + 1.0), all(&|i| 0.5 - i as f64));
+        let (x, y) = (of(&a), of(&b));
+        let width = N::WIDTH;
+        let mut moved = vec![b[width - 1].to_f64()];
+        moved.extend(a[..width - 1].iter().map(|v| v.to_f64()));
+        assert_eq!(list(x.moved_up(y)), moved);
+        for mask in [0u32, 1, 2, (1 << width) - 2, (1 << width) - 1] {
+            let chosen = |i: usize| if mask >> i & 1 == 1 { a[i].to_f64() } else { b[i].to_f64() };
+            let expected: Vec<f64> = (0..width).map(chosen).collect();
+            assert_eq!(list(x.choose(y, mask)), expected, "{mask:b}");
+            assert_eq!(list(unsafe { y.load_over(a.as_ptr(), mask) }), expected, "{mask:b}");
+            let mut to = b.clone();
+            unsafe { x.store_where(to.as_mut_ptr(), mask) };
+            assert_eq!(to.iter().map(|v| v.to_f64()).collect::<Vec<f64>>(), expected, "{mask:b}");
+        }
+        let mut sums = vec![1.0f64; width];
+        unsafe { x.add_to(sums.as_mut_ptr()) };
+        assert_eq!(sums, list(x).iter().map(|v| v + 1.0).collect::<Vec<f64>>());
+        assert_eq!(y.negative(), (0..width).filter(|i| *i > 0).map(|i| 1 << i).sum::<u32>());
+        assert!(!x.any_not_positive() && y.any_not_positive());
+        for bad in [0.0, -1.0, f64::NAN] {
+            let last = all(&|i| if i + 1 == width { bad } else { 1.0 });
+            assert!(of(&last).any_not_positive(), "{bad}");
+        }
+        // A NaN of either stays, so that no failure is lost.
+        let nan = of(&all(&|_| f64::NAN));
+        assert!(list(nan.min(x)).iter().all(|v| v.is_nan()));
+        assert_eq!(list(x.min(y)), list(y));
+        let triple =
+            [(x.mul_add(y, x), 1.0, 1.0), (x.mul_sub(y, x), 1.0, -1.0), (x.neg_mul_add(y, x), -1.0, 1.0)];
+        for (got, product, sum) in triple {
+            let one = |i: usize| product * a[i].to_f64() * b[i].to_f64() + sum * a[i].to_f64();
+            assert_eq!(list(got), (0..width).map(one).collect::<Vec<f64>>());
+        }
+        assert_eq!(list(-x), list(x).iter().map(|v| -v).collect::<Vec<f64>>());
+        assert_eq!(list((x - y) / x * x + y), list(x));
+    }
+    check::<Array<f64, 2>>();
+    check::<Array<f32, 4>>();
+    check::<Portable64>();
+    check::<Portable32>();
 }

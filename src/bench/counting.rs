@@ -50,6 +50,8 @@ const MUL: Operations = Operations { mul: 1, ..NONE };
 const FUSED: Operations = Operations { fused: 1, ..NONE };
 const DIV: Operations = Operations { div: 1, ..NONE };
 
+// A call: what is counted is not timed, and thousands of copies would take as long to compile as a lane type's kernels.
+#[inline(never)]
 fn tally(one: Operations) {
     let n = COUNT.get();
     COUNT.set(Operations {

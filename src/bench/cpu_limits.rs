@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::floor::Limits;
 use crate::cpu::Precision;
-use crate::physics::lanes::{Array, Lanes, Level};
+use crate::physics::lanes::{Lanes, Level, Portable32, Portable64};
 
 /// Copy bandwidth over arrays of one size.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -185,7 +185,7 @@ fn multiply_add_rate(precision: Precision, level: Level, threads: usize) -> f64 
             Level::Avx2 => return unsafe { x86::avx2(double) },
             Level::Portable => {}
         }
-        if double { multiply_adds::<Array<f64, 2>>() } else { multiply_adds::<Array<f32, 4>>() }
+        if double { multiply_adds::<Portable64>() } else { multiply_adds::<Portable32>() }
     })
 }
 

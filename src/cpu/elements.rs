@@ -10,7 +10,7 @@ use crate::physics::element::{
     Class, Corners, ExtrudedQ1p0, ExtrudedUniformGradient, Formulation, Full, LaneShapes, Q1p0,
     UniformGradient,
 };
-use crate::physics::lanes::{Array, Lanes, Level, WIDEST, first};
+use crate::physics::lanes::{Lanes, Level, Portable32, Portable64, WIDEST, first};
 use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::{Real, Scalar};
 use crate::physics::tensor::Vec3;
@@ -383,8 +383,8 @@ macro_rules! dispatched {
         }
     };
 }
-dispatched!(f64, Array<f64, 2>, F64x4, F64x8);
-dispatched!(f32, Array<f32, 4>, F32x8, F32x16);
+dispatched!(f64, Portable64, F64x4, F64x8);
+dispatched!(f32, Portable32, F32x8, F32x16);
 
 /// Lanes of a level, for elements and nodes alike.
 pub fn width(level: Level, single: bool) -> usize {

@@ -6,7 +6,7 @@ use super::state::{Aligned, Field, View};
 use crate::engine::SurfaceSum;
 use crate::physics::contact::{self, Touch};
 use crate::physics::friction::AnyFriction;
-use crate::physics::lanes::{Array, Lanes, Level, WIDEST};
+use crate::physics::lanes::{Lanes, Level, Portable32, Portable64, WIDEST};
 use crate::physics::node::{self, Loads, Prediction, StepSize};
 use crate::physics::road::Plane;
 use crate::physics::scalar::{Real, Scalar};
@@ -626,5 +626,5 @@ macro_rules! node_pass {
         }
     };
 }
-node_pass!(f64, Array<f64, 2>, F64x4, F64x8);
-node_pass!(f32, Array<f32, 4>, F32x8, F32x16);
+node_pass!(f64, Portable64, F64x4, F64x8);
+node_pass!(f32, Portable32, F32x8, F32x16);

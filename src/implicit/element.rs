@@ -6,7 +6,7 @@ use crate::cpu::family::{
     ViscosityFamily,
 };
 use crate::physics::element::{Class, Corners, Energy, Formulation, Full, Q1p0, Shape, UniformGradient};
-use crate::physics::lanes::{Array, Lanes, Level};
+use crate::physics::lanes::{Lanes, Level, Portable64};
 use crate::physics::material::{Law, Viscosity};
 use crate::scene;
 use std::marker::PhantomData;
@@ -135,7 +135,7 @@ impl<F: Formulation, L: LawFamily, V: ViscosityFamily> Kernel for Composed<F, L,
                 Level::Portable => {}
             }
         }
-        tangent_in::<Array<f64, 2>, F, L, V>(self, class, x, v, rate, &mut rows);
+        tangent_in::<Portable64, F, L, V>(self, class, x, v, rate, &mut rows);
         rows
     }
 

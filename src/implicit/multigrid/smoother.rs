@@ -1,7 +1,7 @@
 //! Multiplicative relaxation of overlapping element blocks (24 unknowns each).
 
 use crate::implicit::matrix::BlockMatrix;
-use crate::physics::lanes::{Array, Lanes, Level};
+use crate::physics::lanes::{Lanes, Level, Portable64};
 use crate::physics::tensor::Vec3;
 use rayon::prelude::*;
 
@@ -90,7 +90,7 @@ impl ElementBlocks {
                 Level::Portable => {}
             }
         }
-        self.relax_in::<Array<f64, 2>>(element, matrix, b, x);
+        self.relax_in::<Portable64>(element, matrix, b, x);
     }
 
     /// A block's nine products with the three unknowns of its column are taken lane by lane and summed over the row first.

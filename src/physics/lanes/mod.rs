@@ -11,7 +11,17 @@ mod x86;
 pub use array::Array;
 pub(super) use array::{GUESS_F32, GUESS_F64};
 #[cfg(target_arch = "x86_64")]
-pub use x86::{F32x8, F32x16, F64x4, F64x8};
+pub use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
+
+/// Lanes of [`Level::Portable`].
+#[cfg(target_arch = "x86_64")]
+pub type Portable64 = F64x2;
+#[cfg(target_arch = "x86_64")]
+pub type Portable32 = F32x4;
+#[cfg(not(target_arch = "x86_64"))]
+pub type Portable64 = Array<f64, 2>;
+#[cfg(not(target_arch = "x86_64"))]
+pub type Portable32 = Array<f32, 4>;
 
 use super::scalar::{Real, Scalar};
 

@@ -1,5 +1,5 @@
-//! Lanes of 256 and 512 bits by hand: as arrays the compiler splits the wide ones in two and spills, and takes ten
-//! times as long over the others.
+//! Lanes of 128, 256 and 512 bits by hand: as arrays the compiler splits the wide ones in two and spills, and takes ten
+//! times as long over the others. Those of 128 bits need nothing that an x86-64 processor may lack (SSE2).
 
 use super::Lanes;
 use crate::physics::scalar::{Real, Scalar};
@@ -418,6 +418,204 @@ narrow!(
     negative_f32_256
 );
 
+/// Products and sums of 128 bits, not fused: SSE2 has nothing for it.
+macro_rules! unfused {
+    ($vector:ty, $add:ident, $sub:ident, $mul:ident, $fmadd:ident, $fnmadd:ident, $fmsub:ident) => {
+        #[inline(always)]
+        unsafe fn $fmadd(a: $vector, b: $vector, c: $vector) -> $vector {
+            unsafe { $add($mul(a, b), c) }
+        }
+        #[inline(always)]
+        unsafe fn $fnmadd(a: $vector, b: $vector, c: $vector) -> $vector {
+            unsafe { $sub(c, $mul(a, b)) }
+        }
+        #[inline(always)]
+        unsafe fn $fmsub(a: $vector, b: $vector, c: $vector) -> $vector {
+            unsafe { $sub($mul(a, b), c) }
+        }
+    };
+}
+unfused!(__m128d, _mm_add_pd, _mm_sub_pd, _mm_mul_pd, fmadd_f64_128, fnmadd_f64_128, fmsub_f64_128);
+unfused!(__m128, _mm_add_ps, _mm_sub_ps, _mm_mul_ps, fmadd_f32_128, fnmadd_f32_128, fmsub_f32_128);
+
+/// The first guess in 128 bits.
+#[inline(always)]
+unsafe fn guess_f64_128(x: __m128d) -> __m128d {
+    unsafe {
+        let upper = _mm_shuffle_epi32::<0b11_01_11_01>(_mm_castpd_si128(x));
+        let third = _mm_mul_pd(_mm_cvtepi32_pd(upper), _mm_set1_pd(-1.0 / 3.0));
+        let guess = _mm_cvttpd_epi32(_mm_add_pd(third, _mm_set1_pd(super::array::GUESS_F64)));
+        _mm_castsi128_pd(_mm_unpacklo_epi32(_mm_setzero_si128(), guess))
+    }
+}
+
+#[inline(always)]
+unsafe fn guess_f32_128(x: __m128) -> __m128 {
+    unsafe {
+        let third = _mm_mul_ps(_mm_cvtepi32_ps(_mm_castps_si128(x)), _mm_set1_ps(-1.0 / 3.0));
+        _mm_castsi128_ps(_mm_cvttps_epi32(_mm_add_ps(third, _mm_set1_ps(super::array::GUESS_F32))))
+    }
+}
+
+#[inline(always)]
+unsafe fn up_f64_128(a: __m128d, before: __m128d) -> __m128d {
+    unsafe { _mm_shuffle_pd::<0b01>(before, a) }
+}
+
+#[inline(always)]
+unsafe fn up_f32_128(a: __m128, before: __m128) -> __m128 {
+    unsafe {
+        let (own, last) = (_mm_castps_si128(a), _mm_castps_si128(before));
+        _mm_castsi128_ps(_mm_or_si128(_mm_slli_si128::<4>(own), _mm_srli_si128::<12>(last)))
+    }
+}
+
+/// All ones where the mask has a bit.
+#[inline(always)]
+unsafe fn on_64_128(mask: u32) -> __m128i {
+    unsafe {
+        let bits = _mm_setr_epi32(1, 1, 2, 2);
+        _mm_cmpeq_epi32(_mm_and_si128(_mm_set1_epi32(mask as i32), bits), bits)
+    }
+}
+
+#[inline(always)]
+unsafe fn on_32_128(mask: u32) -> __m128i {
+    unsafe {
+        let bits = _mm_setr_epi32(1, 2, 4, 8);
+        _mm_cmpeq_epi32(_mm_and_si128(_mm_set1_epi32(mask as i32), bits), bits)
+    }
+}
+
+/// What SSE2 has no instruction for: lanes of one of two vectors, the minimum and tests, and loads and stores of single
+/// lanes.
+macro_rules! smallest {
+    ($vector:ty, $real:ty, $width:literal, $and:ident, $andnot:ident, $or:ident, $load:ident, $store:ident, $unordered:ident,
+     $not_greater:ident, $less:ident, $least:ident, $zero:ident, $mask:ident, $cast:ident, $on:ident, $blend:ident,
+     $choose:ident, $min:ident, $not_positive:ident, $negative:ident, $load_over:ident, $store_where:ident) => {
+        #[inline(always)]
+        unsafe fn $blend(on: $vector, a: $vector, other: $vector) -> $vector {
+            unsafe { $or($and(on, a), $andnot(on, other)) }
+        }
+        #[inline(always)]
+        unsafe fn $choose(a: $vector, other: $vector, mask: u32) -> $vector {
+            unsafe { $blend($cast($on(mask)), a, other) }
+        }
+        #[inline(always)]
+        unsafe fn $min(a: $vector, b: $vector) -> $vector {
+            unsafe { $blend($unordered(a, a), a, $least(a, b)) }
+        }
+        #[inline(always)]
+        unsafe fn $not_positive(a: $vector) -> bool {
+            unsafe { $mask($not_greater(a, $zero())) != 0 }
+        }
+        #[inline(always)]
+        unsafe fn $negative(a: $vector) -> u32 {
+            unsafe { $mask($less(a, $zero())) as u32 }
+        }
+        #[inline(always)]
+        unsafe fn $load_over(a: $vector, from: *const $real, mask: u32) -> $vector {
+            let mut values: [$real; $width] = [0.0; $width];
+            unsafe { $store(values.as_mut_ptr(), a) };
+            for (i, value) in values.iter_mut().enumerate() {
+                if mask >> i & 1 == 1 {
+                    *value = unsafe { *from.wrapping_add(i) };
+                }
+            }
+            unsafe { $load(values.as_ptr()) }
+        }
+        #[inline(always)]
+        unsafe fn $store_where(a: $vector, to: *mut $real, mask: u32) {
+            let mut values: [$real; $width] = [0.0; $width];
+            unsafe { $store(values.as_mut_ptr(), a) };
+            for (i, value) in values.iter().enumerate() {
+                if mask >> i & 1 == 1 {
+                    unsafe { *to.wrapping_add(i) = *value };
+                }
+            }
+        }
+    };
+}
+smallest!(
+    __m128d,
+    f64,
+    2,
+    _mm_and_pd,
+    _mm_andnot_pd,
+    _mm_or_pd,
+    _mm_loadu_pd,
+    _mm_storeu_pd,
+    _mm_cmpunord_pd,
+    _mm_cmpngt_pd,
+    _mm_cmplt_pd,
+    _mm_min_pd,
+    _mm_setzero_pd,
+    _mm_movemask_pd,
+    _mm_castsi128_pd,
+    on_64_128,
+    blend_f64_128,
+    choose_f64_128,
+    min_f64_128,
+    not_positive_f64_128,
+    negative_f64_128,
+    load_over_f64_128,
+    store_where_f64_128
+);
+smallest!(
+    __m128,
+    f32,
+    4,
+    _mm_and_ps,
+    _mm_andnot_ps,
+    _mm_or_ps,
+    _mm_loadu_ps,
+    _mm_storeu_ps,
+    _mm_cmpunord_ps,
+    _mm_cmpngt_ps,
+    _mm_cmplt_ps,
+    _mm_min_ps,
+    _mm_setzero_ps,
+    _mm_movemask_ps,
+    _mm_castsi128_ps,
+    on_32_128,
+    blend_f32_128,
+    choose_f32_128,
+    min_f32_128,
+    not_positive_f32_128,
+    negative_f32_128,
+    load_over_f32_128,
+    store_where_f32_128
+);
+
+#[inline(always)]
+unsafe fn add_f64_128(a: __m128d, sums: *mut f64) {
+    unsafe { _mm_storeu_pd(sums, _mm_add_pd(_mm_loadu_pd(sums), a)) }
+}
+
+#[inline(always)]
+unsafe fn add_f32_128(a: __m128, sums: *mut f64) {
+    unsafe {
+        add_f64_128(_mm_cvtps_pd(a), sums);
+        add_f64_128(_mm_cvtps_pd(_mm_movehl_ps(a, a)), sums.add(2));
+    }
+}
+
+lanes!(
+    /// Two f64, SSE2.
+    F64x2, __m128d, f64, 2,
+    _mm_set1_pd, _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, fmadd_f64_128, fnmadd_f64_128,
+    _mm_loadu_pd, _mm_storeu_pd, guess_f64_128, min_f64_128, not_positive_f64_128, negative_f64_128,
+    fmsub_f64_128, up_f64_128, choose_f64_128,
+    load_over_f64_128, store_where_f64_128, add_f64_128
+);
+lanes!(
+    /// Four f32, SSE2.
+    F32x4, __m128, f32, 4,
+    _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps, fmadd_f32_128, fnmadd_f32_128,
+    _mm_loadu_ps, _mm_storeu_ps, guess_f32_128, min_f32_128, not_positive_f32_128, negative_f32_128,
+    fmsub_f32_128, up_f32_128, choose_f32_128,
+    load_over_f32_128, store_where_f32_128, add_f32_128
+);
 lanes!(
     /// Eight f64, AVX-512.
     F64x8, __m512d, f64, 8,
