@@ -40,6 +40,14 @@ pub enum Error {
     )]
     NotFinite { step: u64, time: f64, element: usize },
 
+    /// Energies that do not add up: the steps were too long, though no element failed.
+    #[error(
+        "stored energy and works differ by {:.0} % of the largest of them after step {step} (t = {time:.6e} s): steps are too \
+         long for what happens in them; everything up to here is kept. A smaller time_step.safety, or windows (output.sample) \
+         shorter than an impact, after which the critical step is looked at again, may help", 100.0 * share
+    )]
+    Unbalanced { step: u64, time: f64, share: f64 },
+
     /// No adapter can run compute shaders.
     #[error(
         "no GPU adapter found ({detail}); install a Vulkan driver (Debian: mesa-vulkan-drivers) or use --engine cpu"
@@ -90,6 +98,7 @@ impl Error {
             Error::NoAdapter { .. } | Error::TooLarge { .. } | Error::Device { .. } => 4,
             Error::Inverted { .. }
             | Error::NotFinite { .. }
+            | Error::Unbalanced { .. }
             | Error::NotSettled { .. }
             | Error::Claims { .. }
             | Error::Bench { .. } => 5,

@@ -142,7 +142,8 @@ impl Report<'_> {
         let updates = totals.steps as f64 * self.model.element_count() as f64;
         let stages = StageMeans::of_run(scene, &recorder.history, totals);
         let mut warnings = warnings::of(scene, self.model);
-        warnings.extend(warnings::of_run(scene, &stages));
+        let stored_balance = WorstBalance::of_stored(&recorder.history);
+        warnings.extend(warnings::of_run(scene, &stages, &stored_balance));
         warnings.extend(error.map(|e| format!("the run did not finish: {e}")));
         // Of a run that took no step there is no smallest one.
         let known = |dt: f64| if dt.is_finite() { dt } else { 0.0 };
@@ -166,7 +167,7 @@ impl Report<'_> {
             wall_time_s: wall.as_secs_f64(),
             element_updates_per_s: updates / computing,
             balance: WorstBalance::of(&recorder.history),
-            stored_balance: WorstBalance::of_stored(&recorder.history),
+            stored_balance,
             errors: totals.estimate.into(),
             // + 0.0: no road was pierced is 0, not -0.
             worst_penetration_m: scene.road.map(|_| -totals.ledger.worst_gap + 0.0),

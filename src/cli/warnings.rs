@@ -1,7 +1,7 @@
 //! What a user should know of a scene or a run before believing its numbers.
 
 use crate::model::Model;
-use crate::output::summary::StageMeans;
+use crate::output::summary::{StageMeans, WorstBalance};
 use crate::output::{ContactScatter, Verdict};
 use crate::scene::{Drive, Element, MeshSpec, Method, Scene};
 
@@ -97,10 +97,28 @@ fn coarse_ring(scene: &Scene) -> Vec<String> {
     warnings
 }
 
-/// Warnings that a run gives: stages that chatter or hum, and what helps.
-pub fn of_run(scene: &Scene, stages: &[StageMeans]) -> Vec<String> {
+/// Warnings that a run gives: energies that do not add up, stages that chatter or hum, and what helps.
+pub fn of_run(scene: &Scene, stages: &[StageMeans], stored: &WorstBalance) -> Vec<String> {
     let named = stages.iter().filter_map(|s| Some((&s.stage, s.contact.as_ref()?)));
-    named.filter_map(|(stage, contact)| verdict(scene, stage, contact)).collect()
+    let verdicts = named.filter_map(|(stage, contact)| verdict(scene, stage, contact));
+    unbalanced(scene, stored).into_iter().chain(verdicts).collect()
+}
+
+/// Largest stored-energy error over the largest term that is not worth a word: hard impacts leave some per cent, since their
+/// highest frequencies are resolved by the safety factor alone.
+const UNBALANCED: f64 = 0.1;
+
+fn unbalanced(scene: &Scene, stored: &WorstBalance) -> Option<String> {
+    let share = stored.share_of_largest_term;
+    (share > UNBALANCED).then(|| {
+        format!(
+            "stored energy and works differ by {:.0} % of the largest of them: the steps are too long for what happens in \
+             them, and the numbers are not to be believed. A smaller time_step.safety (here {}) helps, or windows \
+             (output.sample) shorter than an impact, after which the critical step is looked at again",
+            100.0 * share,
+            scene.safety
+        )
+    })
 }
 
 fn verdict(scene: &Scene, stage: &str, contact: &ContactScatter) -> Option<String> {

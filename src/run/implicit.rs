@@ -194,6 +194,7 @@ impl<'a> Run<'a> {
         let road = self.scene.road.as_ref();
         let footprint = Footprint::of(self.model, road, length, &window);
         let row = self.totals.ledger.row(road, &at, &window, &footprint);
+        self.unbalanced = row.stored_balance_error_J;
         let totals = &self.totals;
         let progress = Progress { stage: &stage.name, time, end: self.end, steps: totals.steps, totals };
         self.observer.sample(&row, &progress)?;

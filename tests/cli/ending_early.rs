@@ -28,6 +28,31 @@ fn a_diverging_run_exits_5_and_keeps_its_history() {
     assert!(summary.warnings.iter().any(|w| w.contains("safety")), "{:?}", summary.warnings);
 }
 
+/// A block that hits the road at a quarter of the speed of its waves: in windows shorter than the contact the critical step is
+/// looked at while it is squeezed, in one long window it is not, and the summary says what that does.
+#[test]
+fn energies_that_do_not_add_up_are_named() {
+    let place = Place::new();
+    let scene = shipped("bouncing_block.toml");
+    let run = |sample: &str, out: &str| {
+        let sets = ["body.velocity=[\"0 m/s\", \"0 m/s\", \"-20 m/s\"]", "stage.0.duration=\"2.5 ms\""];
+        let sample = format!("output.sample=\"{sample}\"");
+        let snapshots = "output.snapshots=stage-ends";
+        let args = [
+            "run", &scene, "--engine", "cpu", "--set", sets[0], "--set", sets[1], "--set", &sample, "--set",
+            snapshots, "--out", out,
+        ];
+        place.hexroll(&args).expect(0);
+        let summary = read::summary(&place.path(out)).unwrap().unwrap();
+        let named = summary.warnings.iter().any(|w| w.contains("not to be believed"));
+        (summary.stored_balance.share_of_largest_term, named)
+    };
+    let (followed, named) = run("0.1 ms", "followed");
+    assert!(followed < 0.02 && !named, "{followed}");
+    let (lost, named) = run("2.5 ms", "lost");
+    assert!(lost > 0.1 && named, "{lost}");
+}
+
 #[test]
 fn a_stage_that_does_not_settle_exits_5() {
     let place = Place::new();

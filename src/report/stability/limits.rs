@@ -3,6 +3,7 @@
 use crate::model::Model;
 use crate::report::bench::{GROUND, HELD, block, explicit, press, simulate_model, wheel};
 use crate::report::claim::short;
+use crate::run;
 use crate::scene::*;
 use crate::{Error, Result};
 
@@ -69,8 +70,6 @@ impl Hard {
 /// Safety factors tried, the default first. Halves before giving up on a case that fails at 0.9.
 const UP: [f64; 5] = [0.9, 0.97, 1.03, 1.1, 1.3];
 const DOWN: [f64; 2] = [0.45, 0.2];
-/// Stored energy that is off by more is garbage [of the largest energy term].
-const GARBAGE: f64 = 0.25;
 
 /// Searches the limit.
 ///
@@ -119,7 +118,7 @@ fn attempt(scene: &Scene, model: &Model, safety: f64, limit: &mut Limit) -> bool
                     outcome.samples.iter().map(|s| s.min_jacobian).fold(f64::INFINITY, f64::min);
             }
             // NaN is garbage too.
-            if stored.is_nan() || stored >= GARBAGE {
+            if stored.is_nan() || stored >= run::GARBAGE {
                 let percent = short(100.0 * stored);
                 limit.silent = Some(format!("safety {safety}: ends, stored energy off by {percent} %"));
                 limit.beyond = limit.silent.clone();
