@@ -1,16 +1,16 @@
 //! Every kernel holds what its scene uses and nothing else. Proved on the composed text, without an adapter.
 //!
 //! The parts that decide a kernel's text are few: all combinations of 3 elements, 3 laws, 3 rims, road and friction law,
-//! viscosity, gravity, damping, held components and pair positions give some 2,000 different texts, and every one of them
+//! viscosity, gravity, damping, held components and precision give some 2,000 different texts, and every one of them
 //! is checked.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::path::Path;
 use std::sync::LazyLock;
 
-use hexroll::gpu::Counts;
 use hexroll::gpu::compose::{Choice, Kernel, PARTS, RimKind};
-use hexroll::gpu::layout;
+use hexroll::gpu::layout::{self, Real, Wgsl};
+use hexroll::gpu::{Counts, Precision};
 use hexroll::scene::{Element, Friction, Law};
 use naga::{ArraySize, Block, Expression, Function, GlobalVariable, Handle, Module, Statement, TypeInner};
 
@@ -51,9 +51,13 @@ fn choices() -> Vec<Choice> {
         for law in laws {
             for rim in [RimKind::None, RimKind::Prescribed, RimKind::Free] {
                 for (road, friction, held) in ROADS {
-                    for bits in 0..16 {
+                    for (bits, precision) in (0..8).flat_map(|b| Precision::ALL.map(|p| (b, p))) {
                         let bit = |k: u32| bits >> k & 1 == 1;
-                        let (viscous, gravity, damping, plus) = (bit(0), bit(1), bit(2), bit(3));
+                        let (viscous, gravity, damping) = (bit(0), bit(1), bit(2));
+                        // Double precision has all of what single has: with none of these, and with all.
+                        if precision == Precision::F64 && !(bits == 0 || bits == 7) {
+                            continue;
+                        }
                         let choice = Choice {
                             element,
                             law,
@@ -64,7 +68,7 @@ fn choices() -> Vec<Choice> {
                             gravity,
                             damping,
                             rim,
-                            plus,
+                            precision,
                             // Both, each with everything else.
                             shared_classes: gravity,
                             lattice: damping,
@@ -202,7 +206,7 @@ fn names(module: &Module) -> BTreeSet<String> {
 
 /// What a kernel may bring without using it: files that hold the few functions of one subject, of which a kernel
 /// calls some. Everything else that is composed must be reached.
-const SHARED: [(&str, &[&str]); 19] = [
+const SHARED: [(&str, &[&str]); 24] = [
     // Element passes: the force pass needs the stress and not the energy, the energy pass the other way round;
     // elements with points need the Gauss lines, the uniform-gradient one does not.
     ("lib/hex8", &["interpolate", "gradients", "half_edges", "scatter", "cofactor"]),
@@ -216,9 +220,9 @@ const SHARED: [(&str, &[&str]); 19] = [
     ("material/mooney_rivlin", &["psi", "first_piola", "U", "dU"]),
     ("material/mooney_rivlin_eq4", &["psi", "first_piola", "U", "dU"]),
     // Corner positions come as half edges (points) or as offsets (uniform gradient).
-    ("position/f32", &["half_edges_of", "offsets_of"]),
+    ("position/plain", &["half_edges_of", "offsets_of"]),
     ("position/resident", &["half_edges_of", "offsets_of"]),
-    ("position/f32_plus", &["half_edges_of", "offsets_of", "sum_pair"]),
+    ("position/pairs", &["half_edges_of", "offsets_of", "sum_pair"]),
     // Elements are named where one may fail, or have classes of their own.
     ("lib/chains", &["element_entry"]),
     ("chain/table", &["element_at", "chain_elements"]),
@@ -226,8 +230,15 @@ const SHARED: [(&str, &[&str]); 19] = [
     // Where a body's entries begin, by array.
     ("lib/alone", &["of_nodes", "of_surface", "of_rim", "of_chains", "of_flags"]),
     ("lib/member", &["of_surface", "of_rim", "of_chains", "of_contact"]),
-    // Every kernel but the resident one folds its index, the force pass alone looks for NaN.
-    ("lib/index", &["is_finite", "thread_index"]),
+    // Every kernel but the resident one folds its index.
+    ("lib/index", &["thread_index"]),
+    // The force pass alone looks for NaN.
+    ("real/single", &["is_finite"]),
+    ("real/double", &["is_finite"]),
+    // Of the law of eq. 4 only the energy has a logarithm.
+    ("real/log_single", &["logarithm"]),
+    ("real/log_double", &["logarithm"]),
+    ("real/exp_double", &["exponential"]),
 ];
 
 /// Whether `name` is one a kernel made of `parts` may bring unused.
@@ -238,7 +249,7 @@ fn may_be_unused(parts: &[&str], name: &str) -> bool {
 #[test]
 fn every_composition_is_valid_and_all_of_it_is_reached() {
     let all = composed();
-    assert!((150..2500).contains(&all.len()), "{} texts", all.len());
+    assert!((150..3000).contains(&all.len()), "{} texts", all.len());
     for Composed { choice, kernel, .. } in all {
         let module = choice.module(*kernel).unwrap_or_else(|e| panic!("{choice:?}: {e}"));
         assert_eq!(module.entry_points.len(), 1);
@@ -358,9 +369,9 @@ const FEATURES: [Feature; 11] = [
     },
     Feature {
         name: "pairs",
-        files: &["position/f32_plus", "position/store_f32_plus", "position/now_f32_plus", "lib/two_sum"],
-        instead: &["position/f32", "position/store_f32", "position/now_f32"],
-        chosen: |c| c.plus,
+        files: &["position/pairs", "position/store_pairs", "position/now_pairs", "lib/two_sum"],
+        instead: &["position/plain", "position/store_plain", "position/now_plain"],
+        chosen: |c| c.precision.has_pairs(),
     },
 ];
 
@@ -368,10 +379,10 @@ const FEATURES: [Feature; 11] = [
 /// kernel belongs to free rims.
 fn compiled(choice: &Choice, kernel: Kernel) -> bool {
     match kernel {
-        Kernel::CheckSums => choice.plus,
-        Kernel::Resident => !choice.plus && choice.rim != RimKind::Free,
+        Kernel::CheckSums => choice.precision.has_pairs(),
+        Kernel::Resident => choice.precision == Precision::F32 && choice.rim != RimKind::Free,
         Kernel::Rim => choice.rim == RimKind::Free,
-        Kernel::Rebase => choice.rim != RimKind::None,
+        Kernel::Rebase => choice.rim != RimKind::None && choice.precision != Precision::F64,
         _ => true,
     }
 }
@@ -398,12 +409,19 @@ fn a_scene_without_a_feature_has_no_code_binding_or_constant_of_it() {
     }
 }
 
-/// Memory layouts: what Rust's `repr(C)` makes of a declaration is what naga makes of its WGSL.
+/// Memory layouts: what the host makes of a declaration is what naga makes of its WGSL.
 #[test]
 fn host_and_shader_agree_on_every_struct() {
-    let shared = layout::all();
+    for (real, part) in [(Real::Single, "real/single"), (Real::Double, "real/double")] {
+        let (_, aliases) = PARTS.iter().find(|(name, _)| *name == part).unwrap();
+        agree(real, aliases);
+    }
+}
+
+fn agree(real: Real, aliases: &str) {
+    let shared = layout::all(real);
     let text: String = shared.iter().map(|s| s.text.as_str()).collect();
-    let module = parse(&text);
+    let module = parse(&format!("{aliases}{text}"));
     assert!(shared.len() >= 9);
     for host in &shared {
         let (_, found) = (module.types.iter())
@@ -417,6 +435,28 @@ fn host_and_shader_agree_on_every_struct() {
             members.iter().map(|m| (m.name.as_deref().unwrap(), m.offset as usize)).collect();
         assert_eq!(offsets, host.offsets, "offsets in {}", host.name);
     }
+}
+
+/// A value comes back from its bytes, in single precision rounded, and takes the bytes that it says.
+#[test]
+fn a_struct_comes_back_from_its_bytes() {
+    let third = 1.0 / 3.0;
+    let record = layout::SurfaceRecord {
+        impulse: [third, 2.0, 3.0, 4.0],
+        normal_work: 5.0,
+        friction_work: third,
+        touching: 7,
+        sticking: 8,
+    };
+    for (real, third) in [(Real::Single, f64::from(third as f32)), (Real::Double, third)] {
+        let bytes = layout::encode(real, &[record; 3]);
+        assert_eq!(bytes.len(), 3 * layout::SurfaceRecord::size(real));
+        let impulse = [third, 2.0, 3.0, 4.0];
+        let expected = layout::SurfaceRecord { impulse, friction_work: third, ..record };
+        assert_eq!(layout::decode::<layout::SurfaceRecord>(real, &bytes), [expected; 3]);
+    }
+    // Padding within and behind: a vector of three numbers is as far from the next as one of four.
+    assert_eq!(layout::encode(Real::Double, &[[1.0; 3]; 2]).len(), 64);
 }
 
 #[test]

@@ -1,7 +1,7 @@
-// Arithmetic: eight independent chains of vec4f multiply-adds in registers, 64 scalar ones a turn.
+// Arithmetic: eight independent chains of vec4r multiply-adds in registers, 64 scalar ones a turn.
 
-@group(0) @binding(0) var<storage, read> from_buffer: array<vec4f>;
-@group(0) @binding(1) var<storage, read_write> to_buffer: array<vec4f>;
+@group(0) @binding(0) var<storage, read> from_buffer: array<vec4r>;
+@group(0) @binding(1) var<storage, read_write> to_buffer: array<vec4r>;
 
 override turns: u32;
 
@@ -14,7 +14,7 @@ fn main(
     // Of values that the compiler does not know; the factor is below one, so that nothing overflows.
     let m = from_buffer[0];
     let s = from_buffer[1];
-    var a = vec4f(f32(i)) * s;
+    var a = vec4r(real(i)) * s;
     var b = a + s;
     var c = b + s;
     var d = c + s;

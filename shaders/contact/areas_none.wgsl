@@ -1,3 +1,3 @@
-fn inverse_area(role: u32) -> f32 {
+fn inverse_area(role: u32) -> real {
     return 0.0;
 }

@@ -4,22 +4,22 @@
 @group(0) @binding(15) var<storage, read_write> contact_states: array<u32>;
 
 // Gives back what the step's sum over the body needs: force, and touching + 4096 (another state than the step before).
-fn book_contact(role: u32, moved: Moved, way: vec3f) -> vec4f {
+fn book_contact(role: u32, moved: Moved, way: vec3r) -> vec4r {
     let k = of_surface(role);
     let before = contact_states[k];
     if before == 0u && moved.touches == 0u {
-        return vec4f(0.0);
+        return vec4r(0.0);
     }
     contact_states[k] = moved.touches;
-    let changed = select(4096.0, 0.0, before == moved.touches);
+    let changed = select(real(4096.0), real(0.0), before == moved.touches);
     if moved.touches == 0u {
-        return vec4f(vec3f(0.0), changed);
+        return vec4r(vec3r(0.0), changed);
     }
     let force = moved.normal_force + moved.tangential_force;
-    surface_sums[k].impulse += vec4f(step.dtm * force, 0.0);
+    surface_sums[k].impulse += vec4r(step.dtm * force, 0.0);
     surface_sums[k].normal_work += dot(moved.normal_force, way);
     surface_sums[k].friction_work += dot(moved.tangential_force, way);
     surface_sums[k].touching += 1u;
     surface_sums[k].sticking += select(0u, 1u, moved.touches == 2u);
-    return vec4f(force, changed + 1.0);
+    return vec4r(force, changed + 1.0);
 }

@@ -1,5 +1,5 @@
 // With the road if the force that needs is within the cone, else slowed by mu fN.
-fn rub(role: u32, x: vec3f, v: vec3f, n: vec3f, push: f32, per_step: f32, pressed: vec3f) -> Rubbed {
+fn rub(role: u32, x: vec3r, v: vec3r, n: vec3r, push: real, per_step: real, pressed: vec3r) -> Rubbed {
     let surface = road_velocity(x);
     let relative = pressed - surface;
     let normal_speed = dot(relative, n);

@@ -1,3 +1,3 @@
-fn rub(role: u32, x: vec3f, v: vec3f, n: vec3f, push: f32, per_step: f32, pressed: vec3f) -> Rubbed {
+fn rub(role: u32, x: vec3r, v: vec3r, n: vec3r, push: real, per_step: real, pressed: vec3r) -> Rubbed {
     return Rubbed(pressed, 1u);
 }

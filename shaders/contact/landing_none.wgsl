@@ -1,3 +1,3 @@
-fn landing(x: Pair, touches: u32) -> vec3f {
-    return vec3f(0.0);
+fn landing(x: Pair, touches: u32) -> vec3r {
+    return vec3r(0.0);
 }

@@ -1,3 +1,3 @@
-fn touched(node: Node, x: vec3f, v: vec3f, v_star: vec3f) -> Moved {
+fn touched(node: Node, x: vec3r, v: vec3r, v_star: vec3r) -> Moved {
     return unconstrained(x, v_star);
 }

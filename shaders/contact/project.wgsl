@@ -1,13 +1,13 @@
 // Contact that is always satisfied; twin of src/physics/contact.rs.
 
-fn touched(node: Node, x: vec3f, v: vec3f, v_star: vec3f) -> Moved {
+fn touched(node: Node, x: vec3r, v: vec3r, v_star: vec3r) -> Moved {
     if node.role == INTERIOR {
         return unconstrained(x, v_star);
     }
     let x_star = x + step.dt * v_star;
     let gap = road_gap(x_star);
     if !(gap < 0.0) {
-        return Moved(x_star, v_star, vec3f(0.0), vec3f(0.0), 0u);
+        return Moved(x_star, v_star, vec3r(0.0), vec3r(0.0), 0u);
     }
     let n = road_normal(x_star);
     let push = -gap / step.dt;
@@ -20,4 +20,4 @@ fn touched(node: Node, x: vec3f, v: vec3f, v_star: vec3f) -> Moved {
 }
 
 // Velocity after friction, and 1 (slides) or 2 (sticks).
-struct Rubbed { v: vec3f, touches: u32 }
+struct Rubbed { v: vec3r, touches: u32 }

@@ -1,8 +1,8 @@
 // Contact over the body in this step, by work groups of 64 surface nodes.
 
-@group(0) @binding(16) var<storage, read_write> contact_steps: array<vec4f>;
+@group(0) @binding(16) var<storage, read_write> contact_steps: array<vec4r>;
 
-fn sum_step(group: u32, lane: u32, contact: vec4f) {
+fn sum_step(group: u32, lane: u32, contact: vec4r) {
     let sum = group_sum(lane, contact);
     let groups = (arrayLength(&contact_states) + 63u) / 64u;
     if lane == 0u && group < groups {

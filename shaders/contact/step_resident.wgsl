@@ -1,9 +1,9 @@
 // Contact over the body in this step, summed in the memory of the forces, which the nodes have read: 32 threads add up
 // those of all, four threads those of the 32. Always in the same order.
 
-@group(0) @binding(16) var<storage, read_write> contact_steps: array<vec4f>;
+@group(0) @binding(16) var<storage, read_write> contact_steps: array<vec4r>;
 
-fn sum_step(group: u32, lane: u32, contact: vec4f) {
+fn sum_step(group: u32, lane: u32, contact: vec4r) {
     workgroupBarrier();
     held_forces[4u * lane] = contact.x;
     held_forces[4u * lane + 1u] = contact.y;
@@ -18,7 +18,7 @@ fn sum_step(group: u32, lane: u32, contact: vec4f) {
     }
     workgroupBarrier();
     if lane < 4u {
-        var sum = 0.0;
+        var sum: real = 0.0;
         for (var k = lane; k < 128u; k += 4u) {
             sum += held_forces[k];
         }

@@ -1,3 +1,3 @@
-fn damping_work(mass: f32, before: vec3f, after: vec3f, way: vec3f) -> f32 {
+fn damping_work(mass: real, before: vec3r, after: vec3r, way: vec3r) -> real {
     return 0.0;
 }

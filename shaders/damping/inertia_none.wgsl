@@ -1,4 +1,4 @@
 // What a force of this step meets.
-fn inertia(mass: f32) -> f32 {
+fn inertia(mass: real) -> real {
     return mass;
 }

@@ -1,13 +1,13 @@
 // Mass damping on the mean velocity of the step; twin of src/physics/node.rs.
 
-override alpha: f32;
+override alpha: real;
 
 // Velocity at n+1/2 without contact.
-fn predict(mass: f32, f_int: vec3f, v: vec3f) -> vec3f {
+fn predict(mass: real, f_int: vec3r, v: vec3r) -> vec3r {
     let h = 0.5 * alpha * step.dtm;
     return (v * (1.0 - h) + step.dtm * (gravity() - f_int / mass)) / (1.0 + h);
 }
 
-fn damping_force(mass: f32, before: vec3f, after: vec3f) -> vec3f {
+fn damping_force(mass: real, before: vec3r, after: vec3r) -> vec3r {
     return -0.5 * alpha * mass * (before + after);
 }

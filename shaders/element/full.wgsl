@@ -1,17 +1,17 @@
 // 2x2x2 points for everything; twin of src/physics/element/full.rs.
 
-fn mean_pressure(c: Columns, shape: u32) -> f32 {
+fn mean_pressure(c: Columns, shape: u32) -> real {
     return 0.0;
 }
 
-fn point_pressure(mean: f32, j: f32) -> f32 {
+fn point_pressure(mean: real, j: real) -> real {
     return dU(j);
 }
 
-fn mean_U(c: Columns, shape: u32) -> f32 {
+fn mean_U(c: Columns, shape: u32) -> real {
     return 0.0;
 }
 
-fn point_U(j: f32) -> f32 {
+fn point_U(j: real) -> real {
     return U(j);
 }

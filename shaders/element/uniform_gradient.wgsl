@@ -1,15 +1,15 @@
 // Volume-averaged gradients and hourglass stiffness; twin of src/physics/element/uniform_gradient.rs.
 
 // Differences of a field to corner 0, and what follows from them.
-struct Modes { f: mat3x3f, h0: vec3f, h1: vec3f, h2: vec3f, h3: vec3f }
+struct Modes { f: mat3x3r, h0: vec3r, h1: vec3r, h2: vec3r, h3: vec3r }
 
-fn outer_sum(f: mat3x3f, u: vec3f, b: vec4f) -> mat3x3f {
-    return mat3x3f(f[0] + u * b.x, f[1] + u * b.y, f[2] + u * b.z);
+fn outer_sum(f: mat3x3r, u: vec3r, b: vec4r) -> mat3x3r {
+    return mat3x3r(f[0] + u * b.x, f[1] + u * b.y, f[2] + u * b.z);
 }
 
 // Mean gradient and hourglass modes of a field from its differences u_a = x_a - x_0, a = 1..7 (u.a0 is not read).
 fn modes(u: Corners, shape: u32) -> Modes {
-    var f = mat3x3f(u.a1 * classes[shape].gradient[1].x, u.a1 * classes[shape].gradient[1].y, u.a1 * classes[shape].gradient[1].z);
+    var f = mat3x3r(u.a1 * classes[shape].gradient[1].x, u.a1 * classes[shape].gradient[1].y, u.a1 * classes[shape].gradient[1].z);
     f = outer_sum(f, u.a2, classes[shape].gradient[2]);
     f = outer_sum(f, u.a3, classes[shape].gradient[3]);
     f = outer_sum(f, u.a4, classes[shape].gradient[4]);
@@ -24,12 +24,12 @@ fn modes(u: Corners, shape: u32) -> Modes {
         u.a1 - u.a2 + u.a3 + u.a4 - u.a5 + u.a6 - u.a7 - f * classes[shape].gamma_x[3].xyz);
 }
 
-fn less_outer(p: mat3x3f, r: vec3f, g: vec4f) -> mat3x3f {
-    return mat3x3f(p[0] - r * g.x, p[1] - r * g.y, p[2] - r * g.z);
+fn less_outer(p: mat3x3r, r: vec3r, g: vec4r) -> mat3x3r {
+    return mat3x3r(p[0] - r * g.x, p[1] - r * g.y, p[2] - r * g.z);
 }
 
 // f_a = (V P - sum_h r_h (x) Gamma_h . X) b_a + sum_h r_h Gamma_h,a
-fn corner_forces(stress: mat3x3f, r: Modes, shape: u32) -> Corners {
+fn corner_forces(stress: mat3x3r, r: Modes, shape: u32) -> Corners {
     var p = stress * classes[shape].volume;
     p = less_outer(p, r.h0, classes[shape].gamma_x[0]);
     p = less_outer(p, r.h1, classes[shape].gamma_x[1]);
@@ -46,21 +46,21 @@ fn corner_forces(stress: mat3x3f, r: Modes, shape: u32) -> Corners {
         p * classes[shape].gradient[7].xyz + (r.h0 - r.h1 - r.h2 - r.h3));
 }
 
-struct MeanStress { p: mat3x3f, j: f32 }
+struct MeanStress { p: mat3x3r, j: real }
 
-fn mean_stress(f: mat3x3f) -> MeanStress {
+fn mean_stress(f: mat3x3r) -> MeanStress {
     let cof = cofactor(f);
     let j = dot(f[0], cof[0]);
-    let k = kinematics(f, vec3f(1.0), vec3f(0.0));
+    let k = kinematics(f, vec3r(1.0), vec3r(0.0));
     return MeanStress(force_matrix(f, k, first_piola(k.i1, k.i2, j), dU(j), cof, 1.0), j);
 }
 
-fn element_energy(low: Face, high: Face, shape: u32) -> vec3f {
+fn element_energy(low: Face, high: Face, shape: u32) -> vec3r {
     let m = modes(offsets_of(low, high), shape);
     let j = determinant(m.f);
-    let k = kinematics(m.f, vec3f(1.0), vec3f(0.0));
+    let k = kinematics(m.f, vec3r(1.0), vec3r(0.0));
     let q2 = dot(m.h0, m.h0) + dot(m.h1, m.h1) + dot(m.h2, m.h2) + dot(m.h3, m.h3);
-    return vec3f(
+    return vec3r(
         classes[shape].volume * (psi(k.i1, k.i2, j) + U(j)),
         0.5 * classes[shape].hourglass_stiffness * q2,
         j);

@@ -1,12 +1,12 @@
 // mu = a + b exp(-p/p0) + c exp(-v/v0); twin of src/physics/friction/pressure_velocity.rs.
 
-override friction_a: f32;
-override friction_b: f32;
-override friction_inverse_pressure: f32;
-override friction_c: f32;
-override friction_inverse_speed: f32;
+override friction_a: real;
+override friction_b: real;
+override friction_inverse_pressure: real;
+override friction_c: real;
+override friction_inverse_speed: real;
 
-fn friction_coefficient(pressure: f32, speed: f32) -> f32 {
-    return friction_a + friction_b * exp(-pressure * friction_inverse_pressure)
-        + friction_c * exp(-speed * friction_inverse_speed);
+fn friction_coefficient(pressure: real, speed: real) -> real {
+    return friction_a + friction_b * exponential(-pressure * friction_inverse_pressure)
+        + friction_c * exponential(-speed * friction_inverse_speed);
 }

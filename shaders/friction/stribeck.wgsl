@@ -1,11 +1,11 @@
 // mu = kinetic + (still - kinetic) exp(-(v/speed)^2) + slope v; twin of src/physics/friction/stribeck.rs.
 
-override friction_still: f32;
-override friction_kinetic: f32;
-override friction_inverse_speed: f32;
-override friction_slope: f32;
+override friction_still: real;
+override friction_kinetic: real;
+override friction_inverse_speed: real;
+override friction_slope: real;
 
-fn friction_coefficient(pressure: f32, speed: f32) -> f32 {
+fn friction_coefficient(pressure: real, speed: real) -> real {
     let s = speed * friction_inverse_speed;
-    return friction_kinetic + (friction_still - friction_kinetic) * exp(-s * s) + friction_slope * speed;
+    return friction_kinetic + (friction_still - friction_kinetic) * exponential(-s * s) + friction_slope * speed;
 }

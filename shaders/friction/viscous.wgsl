@@ -1,7 +1,7 @@
 // mu = slope v; twin of src/physics/friction/viscous.rs.
 
-override friction_slope: f32;
+override friction_slope: real;
 
-fn friction_coefficient(pressure: f32, speed: f32) -> f32 {
+fn friction_coefficient(pressure: real, speed: real) -> real {
     return friction_slope * speed;
 }

@@ -1,6 +1,6 @@
 // The internal force of a node of a generator's mesh: its slots follow from its number.
 
-@group(0) @binding(2) var<storage, read> slots: array<vec4f>;
+@group(0) @binding(2) var<storage, read> slots: array<vec4r>;
 
 // Layers of chains, and elements of a chain of the last one.
 override lattice_layers: u32;
@@ -8,14 +8,14 @@ override lattice_last: u32;
 
 // The force that a column gives to one of its corners; `first`: the corner's slot in the first column, `stride`: slots
 // of a work group.
-fn of_column(there: bool, i: u32, j: u32, first: u32, stride: u32) -> vec3f {
+fn of_column(there: bool, i: u32, j: u32, first: u32, stride: u32) -> vec3r {
     let column = j * lattice_columns + i;
     let slot = first + (column / 64u) * stride + column % 64u;
-    return select(vec3f(0.0), slots[select(0u, slot, there)].xyz, there);
+    return select(vec3r(0.0), slots[select(0u, slot, there)].xyz, there);
 }
 
 // Sum over the four columns about node (i, j), in fixed order.
-fn of_face(i: u32, j: u32, first: u32, stride: u32) -> vec3f {
+fn of_face(i: u32, j: u32, first: u32, stride: u32) -> vec3r {
     let closed = lattice_row == lattice_columns;
     let left = select(i - 1u, lattice_columns - 1u, i == 0u);
     let has_left = closed || i > 0u;
@@ -28,7 +28,7 @@ fn of_face(i: u32, j: u32, first: u32, stride: u32) -> vec3f {
         + of_column(has_right && has_low, i, j - 1u, first + 192u, stride);
 }
 
-fn gather(n: u32) -> vec3f {
+fn gather(n: u32) -> vec3r {
     let i = n % lattice_row;
     let line = n / lattice_row;
     let j = line % lattice_rows;

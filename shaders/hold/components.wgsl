@@ -2,7 +2,7 @@
 
 @group(0) @binding(23) var<storage, read> held: array<u32>;
 
-fn moving(n: u32, f: vec3f) -> vec3f {
+fn moving(n: u32, f: vec3r) -> vec3r {
     let bits = held[n];
-    return select(f, vec3f(0.0), vec3<bool>((bits & 1u) != 0u, (bits & 2u) != 0u, (bits & 4u) != 0u));
+    return select(f, vec3r(0.0), vec3<bool>((bits & 1u) != 0u, (bits & 2u) != 0u, (bits & 4u) != 0u));
 }

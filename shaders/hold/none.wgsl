@@ -1,3 +1,3 @@
-fn moving(n: u32, f: vec3f) -> vec3f {
+fn moving(n: u32, f: vec3r) -> vec3r {
     return f;
 }

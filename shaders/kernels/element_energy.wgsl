@@ -1,6 +1,6 @@
 // Stored energies along every chain: (strain, hourglass, 0, smallest det F).
 
-@group(0) @binding(3) var<storage, read_write> energies: array<vec4f>;
+@group(0) @binding(3) var<storage, read_write> energies: array<vec4r>;
 
 @compute @workgroup_size(64)
 fn main(
@@ -13,7 +13,7 @@ fn main(
         return;
     }
     let chains = chain_groups[thread / 64u];
-    var sum = vec4f(0.0, 0.0, 0.0, 3.0e38);
+    var sum = vec4r(0.0, 0.0, 0.0, 3.0e38);
     if lane < chains.w {
         let chain = Chain(thread / 64u, lane, chains.x + lane);
         var at = chain.at;
@@ -23,7 +23,7 @@ fn main(
             nodes = next_face(at + FACE, nodes);
             let high = load_face(nodes);
             let e = element_energy(low, high, class_at(chains, level, at));
-            sum = vec4f(sum.xy + e.xy, 0.0, min(sum.w, e.z));
+            sum = vec4r(sum.xy + e.xy, 0.0, min(sum.w, e.z));
             low = high;
             at += FACE;
         }

@@ -1,15 +1,15 @@
 // Internal force of every element, summed along its chain into the slots of the faces.
 
-@group(0) @binding(3) var<storage, read_write> slots: array<vec4f>;
+@group(0) @binding(3) var<storage, read_write> slots: array<vec4r>;
 @group(0) @binding(5) var<uniform> step: Step;
 
 const NONE: u32 = 0xffffffffu;
 
 fn store(at: u32, f: Shared) {
-    slots[at] = vec4f(f.a, 0.0);
-    slots[at + CORNER] = vec4f(f.b, 0.0);
-    slots[at + 2u * CORNER] = vec4f(f.c, 0.0);
-    slots[at + 3u * CORNER] = vec4f(f.d, 0.0);
+    slots[at] = vec4r(f.a, 0.0);
+    slots[at + CORNER] = vec4r(f.b, 0.0);
+    slots[at + 2u * CORNER] = vec4r(f.c, 0.0);
+    slots[at + 3u * CORNER] = vec4r(f.d, 0.0);
 }
 
 @compute @workgroup_size(64)
@@ -31,7 +31,7 @@ fn main(
     var nodes = first_face(chain);
     var low = load_end(nodes);
     var held = Shared();
-    var power = 0.0;
+    var power: real = 0.0;
     var failed = NONE;
     var finite = true;
     for (var level = 0u; level < chains.z; level++) {

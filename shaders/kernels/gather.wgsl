@@ -1,6 +1,6 @@
 // Internal force of every node, for reading back.
 
-@group(0) @binding(9) var<storage, read_write> forces: array<vec4f>;
+@group(0) @binding(9) var<storage, read_write> forces: array<vec4r>;
 
 @compute @workgroup_size(64)
 fn main(
@@ -12,5 +12,5 @@ fn main(
     if n >= arrayLength(&forces) {
         return;
     }
-    forces[n] = vec4f(gather(n), 0.0);
+    forces[n] = vec4r(gather(n), 0.0);
 }

@@ -9,7 +9,7 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let thread = thread_index(group, groups, lane);
-    var contact = vec4f(0.0);
+    var contact = vec4r(0.0);
     if thread < node_threads() {
         contact = take_step(node_at(thread));
     }

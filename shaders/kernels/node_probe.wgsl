@@ -2,12 +2,12 @@
 // begin anew. Sums by work group: four records each.
 
 @group(0) @binding(5) var<uniform> step: Step;
-@group(0) @binding(13) var<storage, read_write> probes: array<vec4f>;
-@group(0) @binding(11) var<storage, read_write> velocities: array<vec4f>;
+@group(0) @binding(13) var<storage, read_write> probes: array<vec4r>;
+@group(0) @binding(11) var<storage, read_write> velocities: array<vec4r>;
 
 // Energies (mixed kinetic, kinetic, net force^2, internal force^2); half works (internal, body force, damping, rim);
 // half works of contact (normal, friction); works of the window (internal, body force, damping).
-struct Probed { energies: vec4f, works: vec4f, contact: vec4f, window: vec4f }
+struct Probed { energies: vec4r, works: vec4r, contact: vec4r, window: vec4r }
 
 fn probe(n: u32) -> Probed {
     let here = load_node(n);
@@ -17,20 +17,20 @@ fn probe(n: u32) -> Probed {
     let x = here.xyz;
     let before = velocities[n];
     let v = before.xyz;
-    velocities[n] = vec4f(v, 0.0);
+    velocities[n] = vec4r(v, 0.0);
     let moved = move_node(node, f_int, x, v);
     // Works over the half step before.
     let way = step.weight_before * v;
     let net = (node.mass / step.dtm) * (moved.v - v);
     let rim = is_rim(node.role);
-    let own = select(1.0, 0.0, rim);
-    let energies = vec4f(
+    let own = select(real(1.0), real(0.0), rim);
+    let energies = vec4r(
         0.5 * node.mass * dot(v, moved.v), 0.5 * node.mass * dot(v, v), own * dot(net, net), own * dot(whole, whole));
-    let works = vec4f(
+    let works = vec4r(
         -dot(f_int, way), node.mass * dot(gravity(), way), own * damping_work(node.mass, v, moved.v, way),
         (1.0 - own) * dot(net + f_int - node.mass * gravity(), way));
-    let contact = vec4f(dot(moved.normal_force, way), dot(moved.tangential_force, way), 0.0, 0.0);
-    return Probed(energies, works, contact, vec4f(before.w, take_others(n), 0.0));
+    let contact = vec4r(dot(moved.normal_force, way), dot(moved.tangential_force, way), 0.0, 0.0);
+    return Probed(energies, works, contact, vec4r(before.w, take_others(n), 0.0));
 }
 
 @compute @workgroup_size(64)

@@ -1,8 +1,8 @@
 // Moves the origin of the frame of hi + lo positions.
 
 @group(0) @binding(5) var<uniform> shift: Shift;
-@group(0) @binding(10) var<storage, read_write> positions: array<vec4f>;
-@group(0) @binding(12) var<storage, read_write> positions_lo: array<vec4f>;
+@group(0) @binding(10) var<storage, read_write> positions: array<vec4r>;
+@group(0) @binding(12) var<storage, read_write> positions_lo: array<vec4r>;
 
 @compute @workgroup_size(64)
 fn main(
@@ -16,6 +16,6 @@ fn main(
     }
     let moved = two_sum(positions[n].xyz, -shift.by.xyz, bitcast<u32>(shift.by.w));
     let sum = two_sum(moved.hi, moved.lo + positions_lo[n].xyz, bitcast<u32>(shift.by.w));
-    positions[n] = vec4f(sum.hi, positions[n].w);
-    positions_lo[n] = vec4f(sum.lo, 0.0);
+    positions[n] = vec4r(sum.hi, positions[n].w);
+    positions_lo[n] = vec4r(sum.lo, 0.0);
 }

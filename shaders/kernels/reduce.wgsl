@@ -1,16 +1,16 @@
-// Sums of records of `width` vec4f, in fixed order: group g of column k adds its share into partials[k * groups + g].
+// Sums of records of `width` vec4r, in fixed order: group g of column k adds its share into partials[k * groups + g].
 // With least_w the fourth component is a minimum instead.
 
 override width: u32;
 override least_w: bool;
 
-@group(0) @binding(0) var<storage, read> records: array<vec4f>;
-@group(0) @binding(1) var<storage, read_write> partials: array<vec4f>;
+@group(0) @binding(0) var<storage, read> records: array<vec4r>;
+@group(0) @binding(1) var<storage, read_write> partials: array<vec4r>;
 
-var<workgroup> shared_sums: array<vec4f, 64>;
+var<workgroup> shared_sums: array<vec4r, 64>;
 
-fn combine(a: vec4f, b: vec4f) -> vec4f {
-    return vec4f(a.xyz + b.xyz, select(a.w + b.w, min(a.w, b.w), least_w));
+fn combine(a: vec4r, b: vec4r) -> vec4r {
+    return vec4r(a.xyz + b.xyz, select(a.w + b.w, min(a.w, b.w), least_w));
 }
 
 @compute @workgroup_size(64)
@@ -20,7 +20,7 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let count = arrayLength(&records) / width;
-    var sum = vec4f(0.0, 0.0, 0.0, select(0.0, 3.0e38, least_w));
+    var sum = vec4r(0.0, 0.0, 0.0, select(real(0.0), real(3.0e38), least_w));
     for (var i = group.x * 64u + lane; i < count; i += groups.x * 64u) {
         sum = combine(sum, records[i * width + group.y]);
     }

@@ -48,7 +48,7 @@ fn assemble(number: u32) {
         low = load_end(nodes);
     }
     var held = Shared();
-    var power = 0.0;
+    var power: real = 0.0;
     for (var level = 0u; level < faces; level++) {
         var sum = held;
         let face = nodes;
@@ -89,7 +89,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) la
         for (var round = 0u; round < rounds; round++) {
             assemble(round * threads + lane);
         }
-        var contact = vec4f(0.0);
+        var contact = vec4r(0.0);
         for (var n = lane; n < arrayLength(&roles); n += threads) {
             contact += take_step(n);
         }

@@ -1,8 +1,8 @@
 // Positions and velocities of the surface nodes, packed for reading back.
 
 @group(0) @binding(0) var<storage, read> surface_nodes: array<u32>;
-@group(0) @binding(3) var<storage, read_write> surface_states: array<vec4f>;
-@group(0) @binding(11) var<storage, read> velocities_now: array<vec4f>;
+@group(0) @binding(3) var<storage, read_write> surface_states: array<vec4r>;
+@group(0) @binding(11) var<storage, read> velocities_now: array<vec4r>;
 
 @compute @workgroup_size(64)
 fn main(

@@ -16,8 +16,8 @@ fn report(element: u32, finite: bool) {
 fn is_sound(result: ElementForce) -> bool {
     let f = result.f;
     let sum = f.a0 + f.a1 + f.a2 + f.a3 + f.a4 + f.a5 + f.a6;
-    return is_finite(dot(sum, vec3f(1.0))) && is_finite(result.min_j);
+    return is_finite(dot(sum, vec3r(1.0))) && is_finite(result.min_j);
 }
 
 // Forces on the face between two elements.
-struct Shared { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
+struct Shared { a: vec3r, b: vec3r, c: vec3r, d: vec3r }

@@ -1,7 +1,7 @@
-override gravity_x: f32;
-override gravity_y: f32;
-override gravity_z: f32;
+override gravity_x: real;
+override gravity_y: real;
+override gravity_z: real;
 
-fn gravity() -> vec3f {
-    return vec3f(gravity_x, gravity_y, gravity_z);
+fn gravity() -> vec3r {
+    return vec3r(gravity_x, gravity_y, gravity_z);
 }

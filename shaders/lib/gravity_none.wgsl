@@ -1,3 +1,3 @@
-fn gravity() -> vec3f {
-    return vec3f(0.0);
+fn gravity() -> vec3r {
+    return vec3r(0.0);
 }

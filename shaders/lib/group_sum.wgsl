@@ -1,8 +1,8 @@
 // Sum over a work group, for its thread 0, always in the same order. All of its threads call it.
 
-var<workgroup> shared_sums: array<vec4f, 64>;
+var<workgroup> shared_sums: array<vec4r, 64>;
 
-fn group_sum(lane: u32, value: vec4f) -> vec4f {
+fn group_sum(lane: u32, value: vec4r) -> vec4r {
     // The sum before this one has been read.
     workgroupBarrier();
     shared_sums[lane] = value;
@@ -13,7 +13,7 @@ fn group_sum(lane: u32, value: vec4f) -> vec4f {
         }
     }
     workgroupBarrier();
-    var sum = vec4f(0.0);
+    var sum = vec4r(0.0);
     if lane == 0u {
         for (var k = 0u; k < 8u; k++) {
             sum += shared_sums[k];

@@ -1,16 +1,16 @@
 // Gradients at the 2x2x2 Gauss points by sum factorisation; twin of src/physics/element/hex8.rs.
 // Everything is named and passed by value: arrays indexed in a loop would live in memory.
 
-const NEAR: f32 = 0.7886751345948129; // (1 + 1/sqrt 3)/2
-const FAR: f32 = 0.2113248654051871;
+const NEAR: real = 0.7886751345948129; // (1 + 1/sqrt 3)/2
+const FAR: real = 0.2113248654051871;
 
 // Values on the four edges, or the four Gauss lines, of one direction; index = sign bits of the other two.
-struct Four { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
+struct Four { a: vec3r, b: vec3r, c: vec3r, d: vec3r }
 
 // One Four for each of xi, eta, zeta.
 struct Columns { xi: Four, eta: Four, zeta: Four }
 
-struct Corners { a0: vec3f, a1: vec3f, a2: vec3f, a3: vec3f, a4: vec3f, a5: vec3f, a6: vec3f, a7: vec3f }
+struct Corners { a0: vec3r, a1: vec3r, a2: vec3r, a3: vec3r, a4: vec3r, a5: vec3r, a6: vec3r, a7: vec3r }
 
 fn interpolate(e: Four) -> Four {
     let a0 = e.a * NEAR + e.b * FAR;
@@ -33,8 +33,8 @@ fn half_edges(x: Corners) -> Columns {
         Four(0.5 * (x.a4 - x.a0), 0.5 * (x.a5 - x.a1), 0.5 * (x.a7 - x.a3), 0.5 * (x.a6 - x.a2)));
 }
 
-fn cofactor(a: mat3x3f) -> mat3x3f {
-    return mat3x3f(cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1]));
+fn cofactor(a: mat3x3r) -> mat3x3r {
+    return mat3x3r(cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1]));
 }
 
 // Corner forces from the force matrices summed on the Gauss lines.

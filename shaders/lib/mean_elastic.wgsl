@@ -1,6 +1,6 @@
 // Uniform-gradient element force without viscosity.
 
-struct ElementForce { f: Corners, min_j: f32 }
+struct ElementForce { f: Corners, min_j: real }
 
 // What a thread carries from one element of a chain to the next.
 struct End { x: Face }

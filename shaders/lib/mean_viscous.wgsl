@@ -1,10 +1,10 @@
 // Uniform-gradient element force with viscosity, also on the hourglass modes.
 
-struct ElementForce { f: Corners, min_j: f32, viscous_power: f32 }
+struct ElementForce { f: Corners, min_j: real, viscous_power: real }
 
 fn rate_offsets(v: Corners) -> Corners {
     return Corners(
-        vec3f(0.0), v.a1 - v.a0, v.a2 - v.a0, v.a3 - v.a0, v.a4 - v.a0, v.a5 - v.a0, v.a6 - v.a0, v.a7 - v.a0);
+        vec3r(0.0), v.a1 - v.a0, v.a2 - v.a0, v.a3 - v.a0, v.a4 - v.a0, v.a5 - v.a0, v.a6 - v.a0, v.a7 - v.a0);
 }
 
 // What a thread carries from one element of a chain to the next.

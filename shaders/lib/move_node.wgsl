@@ -1,19 +1,19 @@
 // One node, one step: where it goes, and which forces took it there.
 
 struct Moved {
-    x: vec3f,
-    v: vec3f,
+    x: vec3r,
+    v: vec3r,
     // Road's force [N]: along the normal, in the plane; touches: 0 free, 1 slides, 2 sticks.
-    normal_force: vec3f,
-    tangential_force: vec3f,
+    normal_force: vec3r,
+    tangential_force: vec3r,
     touches: u32,
 }
 
-fn unconstrained(x: vec3f, v: vec3f) -> Moved {
-    return Moved(x + step.dt * v, v, vec3f(0.0), vec3f(0.0), 0u);
+fn unconstrained(x: vec3r, v: vec3r) -> Moved {
+    return Moved(x + step.dt * v, v, vec3r(0.0), vec3r(0.0), 0u);
 }
 
-fn move_node(node: Node, f_int: vec3f, x: vec3f, v: vec3f) -> Moved {
+fn move_node(node: Node, f_int: vec3r, x: vec3r, v: vec3r) -> Moved {
     if is_rim(node.role) {
         return carried(node.role & 0x7fffffffu);
     }

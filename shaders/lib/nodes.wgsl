@@ -3,4 +3,4 @@
 const INTERIOR: u32 = 0xffffffffu;
 const RIM: u32 = 0x80000000u;
 
-struct Node { mass: f32, role: u32 }
+struct Node { mass: real, role: u32 }

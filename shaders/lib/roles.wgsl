@@ -2,6 +2,6 @@
 
 @group(0) @binding(3) var<storage, read> roles: array<u32>;
 
-fn node_of(n: u32, mass: f32) -> Node {
+fn node_of(n: u32, mass: real) -> Node {
     return Node(abs(mass), roles[n]);
 }

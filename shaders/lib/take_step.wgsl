@@ -1,8 +1,8 @@
 // One node, one step; its contact.
-fn take_step(n: u32) -> vec4f {
+fn take_step(n: u32) -> vec4r {
     let here = load_node(n);
     if is_left_out(here.w) {
-        return vec4f(0.0);
+        return vec4r(0.0);
     }
     let node = node_of(n, here.w);
     let f_int = moving(n, gather(n));
@@ -15,10 +15,10 @@ fn take_step(n: u32) -> vec4f {
     let rim = is_rim(node.role);
     book_others(n, node, v, moved.v, way, rim);
     store_position(n, moved, rim, here.w);
-    velocities[of_nodes(n)] = vec4f(moved.v, before.w - dot(f_int, way));
+    velocities[of_nodes(n)] = vec4r(moved.v, before.w - dot(f_int, way));
     if rim {
         book_rim(node, f_int, x, v, moved, way);
-        return vec4f(0.0);
+        return vec4r(0.0);
     }
     return book_contact(node.role, moved, way);
 }

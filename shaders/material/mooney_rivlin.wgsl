@@ -1,29 +1,29 @@
 // W = g1/2 (J^-2/3 I1 - 3) + g2/2 (J^-4/3 I2 - 3), U = g0/2 (J - 1)^2 (eq. 5);
 // twin of src/physics/material/mooney_rivlin.rs.
 
-override g0: f32;
-override g1: f32;
-override g2: f32;
+override g0: real;
+override g1: real;
+override g2: real;
 
-fn psi(i1: f32, i2: f32, j: f32) -> f32 {
+fn psi(i1: real, i2: real, j: real) -> real {
     let r = recip_cbrt(j);
     let r2 = r * r;
     return 0.5 * g1 * (r2 * i1 - 3.0) + 0.5 * g2 * (r2 * r2 * i2 - 3.0);
 }
 
 // (dW/dI1, dW/dI2, dW/dJ)
-fn first_piola(i1: f32, i2: f32, j: f32) -> vec3f {
+fn first_piola(i1: real, i2: real, j: real) -> vec3r {
     let r = recip_cbrt(j);
     let r2 = r * r;
     let w1 = 0.5 * g1 * r2;
     let w2 = 0.5 * g2 * r2 * r2;
-    return vec3f(w1, w2, -(w1 * i1 + 2.0 * w2 * i2) * 0.6666667 * (r2 * r));
+    return vec3r(w1, w2, -(w1 * i1 + 2.0 * w2 * i2) * 0.6666666666666667 * (r2 * r));
 }
 
-fn U(j: f32) -> f32 {
+fn U(j: real) -> real {
     return 0.5 * g0 * (j - 1.0) * (j - 1.0);
 }
 
-fn dU(j: f32) -> f32 {
+fn dU(j: real) -> real {
     return g0 * (j - 1.0);
 }

@@ -1,24 +1,24 @@
 // W = g1/2 (J^-2/3 I1 - 3), U = g0/2 (J - 1)^2; twin of src/physics/material/neo_hookean.rs.
 
-override g0: f32;
-override g1: f32;
+override g0: real;
+override g1: real;
 
-fn psi(i1: f32, i2: f32, j: f32) -> f32 {
+fn psi(i1: real, i2: real, j: real) -> real {
     let r = recip_cbrt(j);
     return 0.5 * g1 * (r * r * i1 - 3.0);
 }
 
 // (dW/dI1, dW/dI2, dW/dJ)
-fn first_piola(i1: f32, i2: f32, j: f32) -> vec3f {
+fn first_piola(i1: real, i2: real, j: real) -> vec3r {
     let r = recip_cbrt(j);
     let w1 = 0.5 * g1 * r * r;
-    return vec3f(w1, 0.0, -(w1 * i1 * (r * r * r)) * 0.6666667);
+    return vec3r(w1, 0.0, -(w1 * i1 * (r * r * r)) * 0.6666666666666667);
 }
 
-fn U(j: f32) -> f32 {
+fn U(j: real) -> real {
     return 0.5 * g0 * (j - 1.0) * (j - 1.0);
 }
 
-fn dU(j: f32) -> f32 {
+fn dU(j: real) -> real {
     return g0 * (j - 1.0);
 }

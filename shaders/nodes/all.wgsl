@@ -1,5 +1,5 @@
 // Every node, by one thread after the other.
 
-fn is_left_out(mass: f32) -> bool {
+fn is_left_out(mass: real) -> bool {
     return false;
 }

@@ -10,6 +10,6 @@ fn node_at(thread: u32) -> u32 {
     return boundary[thread];
 }
 
-fn is_left_out(mass: f32) -> bool {
+fn is_left_out(mass: real) -> bool {
     return false;
 }

@@ -8,10 +8,10 @@ fn node_at(thread: u32) -> u32 {
     return thread;
 }
 
-fn is_left_out(mass: f32) -> bool {
+fn is_left_out(mass: real) -> bool {
     return mass < 0.0;
 }
 
-fn node_of(n: u32, mass: f32) -> Node {
+fn node_of(n: u32, mass: real) -> Node {
     return Node(mass, INTERIOR);
 }

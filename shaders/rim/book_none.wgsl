@@ -1,1 +1,1 @@
-fn book_rim(node: Node, f_int: vec3f, x: vec3f, v: vec3f, moved: Moved, way: vec3f) {}
+fn book_rim(node: Node, f_int: vec3r, x: vec3r, v: vec3r, moved: Moved, way: vec3r) {}

@@ -1,7 +1,7 @@
-override road_velocity_x: f32;
-override road_velocity_y: f32;
-override road_velocity_z: f32;
+override road_velocity_x: real;
+override road_velocity_y: real;
+override road_velocity_z: real;
 
-fn road_velocity(x: vec3f) -> vec3f {
-    return vec3f(road_velocity_x, road_velocity_y, road_velocity_z);
+fn road_velocity(x: vec3r) -> vec3r {
+    return vec3r(road_velocity_x, road_velocity_y, road_velocity_z);
 }

@@ -1,5 +1,5 @@
-fn viscous_power(result: ElementForce) -> f32 {
+fn viscous_power(result: ElementForce) -> real {
     return 0.0;
 }
 
-fn book_viscous(chain: u32, power: f32) {}
+fn book_viscous(chain: u32, power: real) {}

@@ -1,9 +1,9 @@
 // Velocities where the element pass looks for them.
 
-@group(0) @binding(11) var<storage, read> velocities_in: array<vec4f>;
+@group(0) @binding(11) var<storage, read> velocities_in: array<vec4r>;
 
 // Velocities of a face's corners.
-struct Rates { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
+struct Rates { a: vec3r, b: vec3r, c: vec3r, d: vec3r }
 
 fn load_rates(nodes: vec4u) -> Rates {
     return Rates(velocities_in[nodes.x].xyz, velocities_in[nodes.y].xyz, velocities_in[nodes.z].xyz, velocities_in[nodes.w].xyz);

@@ -1,7 +1,7 @@
 // Velocities where the node pass of the same work group has left them.
 
 // Velocities of a face's corners.
-struct Rates { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
+struct Rates { a: vec3r, b: vec3r, c: vec3r, d: vec3r }
 
 fn load_rates(nodes: vec4u) -> Rates {
     return Rates(velocities[of_nodes(nodes.x)].xyz, velocities[of_nodes(nodes.y)].xyz, velocities[of_nodes(nodes.z)].xyz, velocities[of_nodes(nodes.w)].xyz);

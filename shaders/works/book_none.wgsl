@@ -1,1 +1,1 @@
-fn book_others(n: u32, node: Node, v: vec3f, after: vec3f, way: vec3f, rim: bool) {}
+fn book_others(n: u32, node: Node, v: vec3r, after: vec3r, way: vec3r, rim: bool) {}

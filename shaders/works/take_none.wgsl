@@ -1,3 +1,3 @@
-fn take_others(n: u32) -> vec2f {
-    return vec2f(0.0);
+fn take_others(n: u32) -> vec2r {
+    return vec2r(0.0);
 }

@@ -14,6 +14,9 @@ pub struct GpuLimits {
     pub copy: Vec<Copy>,
     /// Multiply-adds in registers, single precision, two operations each [1/s].
     pub flops_per_s: f64,
+    /// The same in double precision; `None` where the adapter has none.
+    #[serde(default)]
+    pub flops_double_per_s: Option<f64>,
     /// A dispatch that waits for the one before and does nothing [s].
     pub dispatch_s: f64,
     /// An empty submission that the host waits for [s].
@@ -33,13 +36,21 @@ impl GpuLimits {
             }
         }
         copy.push(Copy { bytes: 2 * all.copied as usize, holds_to: None, bytes_per_s: all.copy_bandwidth });
-        Ok(GpuLimits { copy, flops_per_s: all.flops, dispatch_s: all.dispatch, submit_s: all.submit })
+        Ok(GpuLimits {
+            copy,
+            flops_per_s: all.flops,
+            flops_double_per_s: all.flops_double,
+            dispatch_s: all.dispatch,
+            submit_s: all.submit,
+        })
     }
 
-    /// Those that hold for arrays of `bytes` in all: the best of the copies that are at least as large.
-    pub fn at(&self, bytes: f64) -> Limits {
+    /// Those that hold for arrays of `bytes` in all, in double precision or single: the best of the copies that are at least as
+    /// large.
+    pub fn at(&self, bytes: f64, double: bool) -> Limits {
         let holds = |c: &&Copy| c.holds_to.is_none_or(|most| most as f64 >= bytes);
         let bandwidth = self.copy.iter().filter(holds).map(|c| c.bytes_per_s).fold(0.0, f64::max);
-        Limits { bandwidth, flops: self.flops_per_s, latency: self.dispatch_s }
+        let flops = if double { self.flops_double_per_s.unwrap_or(f64::NAN) } else { self.flops_per_s };
+        Limits { bandwidth, flops, latency: self.dispatch_s }
     }
 }

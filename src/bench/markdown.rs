@@ -178,8 +178,12 @@ fn gpu_limits(l: &GpuLimits) -> String {
         .iter()
         .map(|c| format!("{} GB/s ({} MiB)", short(1e-9 * c.bytes_per_s), c.bytes >> 20))
         .collect();
+    let double = match l.flops_double_per_s {
+        Some(rate) => format!("{} in double precision", short(1e-9 * rate)),
+        None => "no double precision".into(),
+    };
     format!(
-        "\nAdapter: copy {}; multiply-add {} Gflop/s; empty dispatch {} us, empty submission {} us.\n",
+        "\nAdapter: copy {}; multiply-add {} Gflop/s ({double}); empty dispatch {} us, empty submission {} us.\n",
         copies.join(", "),
         short(1e-9 * l.flops_per_s),
         short(1e6 * l.dispatch_s),

@@ -10,6 +10,7 @@ pub mod chart;
 pub mod counting;
 pub mod cpu_limits;
 pub mod critical;
+mod fleet;
 pub mod floor;
 pub mod gpu_limits;
 pub mod machine;

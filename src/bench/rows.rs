@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::cpu_limits::{CpuLimits, lanes_name};
+use super::fleet::Fleet;
 use super::floor::{self, Bound, Limits};
 use super::gpu_limits::GpuLimits;
 use super::machine::{available_memory, resident_memory};
@@ -11,11 +12,10 @@ use super::shuffle::shuffled;
 use super::wheel::{Roll, Wheel};
 use super::work::{self, Pass};
 use crate::cpu::{Precision, engine_at};
-use crate::engine::{Engine, EngineInfo, StageSetup, State, Step, Window};
-use crate::gpu::{Gpu, GpuEngine, PassTime, PassTimes, advance_together, ensemble};
+use crate::engine::{Engine, State};
+use crate::gpu::{self, Gpu, GpuEngine, PassTime, PassTimes};
 use crate::model::Model;
 use crate::physics::lanes::Level;
-use crate::physics::rim::Coordinates;
 use crate::scene::Scene;
 use crate::{Error, Result};
 
@@ -27,6 +27,7 @@ pub enum Kind {
     GpuF32,
     #[value(name = "gpu-f32+")]
     GpuF32Plus,
+    GpuF64,
 }
 
 impl Kind {
@@ -36,11 +37,27 @@ impl Kind {
             Kind::CpuF32 => "cpu-f32",
             Kind::GpuF32 => "gpu-f32",
             Kind::GpuF32Plus => "gpu-f32+",
+            Kind::GpuF64 => "gpu-f64",
         }
     }
 
     pub fn on_gpu(self) -> bool {
-        matches!(self, Kind::GpuF32 | Kind::GpuF32Plus)
+        self.gpu_precision().is_some()
+    }
+
+    /// Of the GPU engine, if it is one.
+    pub fn gpu_precision(self) -> Option<gpu::Precision> {
+        match self {
+            Kind::CpuF64 | Kind::CpuF32 => None,
+            Kind::GpuF32 => Some(gpu::Precision::F32),
+            Kind::GpuF32Plus => Some(gpu::Precision::F32Plus),
+            Kind::GpuF64 => Some(gpu::Precision::F64),
+        }
+    }
+
+    /// Whether it computes in double precision.
+    pub fn is_double(self) -> bool {
+        matches!(self, Kind::CpuF64 | Kind::GpuF64)
     }
 
     /// Largest error of a row after `steps` over which the wheel came to a mean `deformation` [m].
@@ -51,7 +68,7 @@ impl Kind {
     /// it 1e-3: stick and slip alternate in another order (seen: 3e-4); a shear modulus off by 1 % makes 6e-3.
     pub fn error_limit(self, steps: u64, deformation: f64) -> f64 {
         match self {
-            Kind::CpuF64 => 1e-8,
+            Kind::CpuF64 | Kind::GpuF64 => 1e-8,
             Kind::GpuF32Plus => 1e-3,
             Kind::CpuF32 | Kind::GpuF32 => 1e-3 + 4e-9 * (steps as f64).sqrt() / deformation,
         }
@@ -99,18 +116,18 @@ impl Order {
 const BATCHES: usize = 7;
 
 /// One engine's run, still without its error.
-struct Timed {
-    kind: Kind,
-    level: Level,
-    threads: usize,
-    copies: usize,
-    us: Spread,
-    steps: u64,
-    batch: usize,
-    memory: Option<f64>,
-    state: State,
+pub(super) struct Timed {
+    pub kind: Kind,
+    pub level: Level,
+    pub threads: usize,
+    pub copies: usize,
+    pub us: Spread,
+    pub steps: u64,
+    pub batch: usize,
+    pub memory: Option<f64>,
+    pub state: State,
     /// On a GPU: time and bytes by pass, and how steps are submitted.
-    by_pass: Option<PassTimes>,
+    pub by_pass: Option<PassTimes>,
 }
 
 /// Fills the table of `report`; `done` sees it after every wheel.
@@ -227,7 +244,7 @@ impl Bench<'_> {
         if kind.on_gpu() {
             return self.time_gpu(kind, model, scene, roll, seconds);
         }
-        let precision = if kind == Kind::CpuF64 { Precision::F64 } else { Precision::F32 };
+        let precision = if kind.is_double() { Precision::F64 } else { Precision::F32 };
         let make = || engine_at(model, scene, precision, threads, level);
         let copies = self.options.copies;
         let before = resident_memory();
@@ -259,7 +276,8 @@ impl Bench<'_> {
                 instead: "take gpu-f32, or --copies 1".into(),
             });
         }
-        let mut engine = GpuEngine::new(gpu, model, scene, kind == Kind::GpuF32Plus)?;
+        let precision = kind.gpu_precision().expect("it is on the GPU");
+        let mut engine = GpuEngine::new(gpu, model, scene, precision)?;
         let Clock { us, steps, batch } = Clock::run(&mut engine, model, roll, seconds)?;
         let by_pass = engine.timed_advance(&roll.steps(steps, batch.min(512)))?;
         let steps = steps + by_pass.steps;
@@ -276,13 +294,13 @@ impl Bench<'_> {
         let (mut passes, mix) = cost(kind, model);
         let mut pass_us = Vec::new();
         if let Some(times) = &timed.by_pass {
-            passes = gpu_passes(times, model);
+            passes = gpu_passes(kind, times, model);
             let each = |p: &PassTime| p.seconds.map(|s| 1e6 * s / times.steps as f64);
             pass_us = times.passes.iter().filter_map(each).collect();
         }
         let (bytes, flops) = totals(&passes);
         let limits = match (kind.on_gpu(), &self.report.limits.gpu) {
-            (true, Some(gpu)) => gpu.at(4.0 / 3.0 * arrays(kind, model)),
+            (true, Some(gpu)) => gpu.at(4.0 / 3.0 * arrays(kind, model), kind.is_double()),
             _ => self.limits(kind, level, threads * copies, count * arrays(kind, model)),
         };
         // Rates of the limits are of all copies together: a copy has its share.
@@ -327,8 +345,8 @@ impl Bench<'_> {
 
     /// The limits of an engine, measured when the first row needs them.
     fn limits(&mut self, kind: Kind, level: Level, threads: usize, bytes: f64) -> Limits {
-        let precision = if kind == Kind::CpuF64 { Precision::F64 } else { Precision::F32 };
-        let name = if kind == Kind::CpuF64 { "f64" } else { "f32" };
+        let precision = if kind.is_double() { Precision::F64 } else { Precision::F32 };
+        let name = if kind.is_double() { "f64" } else { "f32" };
         let known = &mut self.report.limits.cpu;
         let same = |l: &CpuLimits| {
             (l.precision.as_str(), l.lanes.as_str(), l.threads) == (name, lanes_name(level), threads)
@@ -343,17 +361,20 @@ impl Bench<'_> {
 
 /// Passes of a step, and the largest share of the multiply-add rate that the force routine's operations can reach.
 fn cost(kind: Kind, model: &Model) -> (Vec<Pass>, f64) {
-    let (passes, operations) = match kind {
-        Kind::CpuF64 => (work::cpu_passes::<f64>(model), work::element_operations::<f64>(model)),
-        _ => (work::cpu_passes::<f32>(model), work::element_operations::<f32>(model)),
+    let (passes, operations) = match kind.is_double() {
+        true => (work::cpu_passes::<f64>(model), work::element_operations::<f64>(model)),
+        false => (work::cpu_passes::<f32>(model), work::element_operations::<f32>(model)),
     };
     (passes, operations.flops() as f64 / (2.0 * operations.places() as f64))
 }
 
 /// Passes of a GPU engine: the bytes of their bindings, and their arithmetic. That of all nodes is booked in the pass of
 /// most of them.
-fn gpu_passes(times: &PassTimes, model: &Model) -> Vec<Pass> {
-    let [elements, nodes] = work::step_operations::<f32>(model);
+fn gpu_passes(kind: Kind, times: &PassTimes, model: &Model) -> Vec<Pass> {
+    let [elements, nodes] = match kind.is_double() {
+        true => work::step_operations::<f64>(model),
+        false => work::step_operations::<f32>(model),
+    };
     let flops = |kernel: &str| match kernel {
         "element_force" => elements,
         "node" => nodes,
@@ -366,9 +387,9 @@ fn gpu_passes(times: &PassTimes, model: &Model) -> Vec<Pass> {
 
 /// Size of an engine's arrays [bytes].
 fn arrays(kind: Kind, model: &Model) -> f64 {
-    match kind {
-        Kind::CpuF64 => work::cpu_arrays::<f64>(model),
-        _ => work::cpu_arrays::<f32>(model),
+    match kind.is_double() {
+        true => work::cpu_arrays::<f64>(model),
+        false => work::cpu_arrays::<f32>(model),
     }
 }
 
@@ -419,15 +440,15 @@ fn dominant(passes: &[Pass], pass_us: &[f64], step_us: f64) -> String {
 }
 
 /// The measurement of one engine.
-struct Clock {
-    us: Spread,
-    steps: u64,
-    batch: usize,
+pub(super) struct Clock {
+    pub us: Spread,
+    pub steps: u64,
+    pub batch: usize,
 }
 
 impl Clock {
     /// Starts the wheel, sinks it in, then times equal batches of steps for about `seconds`.
-    fn run(engine: &mut dyn Engine, model: &Model, roll: &Roll, seconds: f64) -> Result<Clock> {
+    pub fn run(engine: &mut dyn Engine, model: &Model, roll: &Roll, seconds: f64) -> Result<Clock> {
         roll.start(engine, model)?;
         let mut taken = 0;
         let mut advance = |count: usize| -> Result<f64> {
@@ -452,85 +473,6 @@ impl Clock {
         let batch = ((seconds / BATCHES as f64 / each) as usize).clamp(3, longest);
         let us = (0..BATCHES).map(|_| Ok(1e6 * advance(batch)?)).collect::<Result<Vec<f64>>>()?;
         Ok(Clock { us: Spread::of(us), steps: taken, batch })
-    }
-}
-
-/// An ensemble, whose bodies all do the same.
-struct Fleet(Vec<GpuEngine>);
-
-impl Fleet {
-    /// Times it: steps are those of every wheel.
-    fn time(
-        gpu: &Gpu,
-        model: &Model,
-        scene: &Scene,
-        roll: &Roll,
-        copies: usize,
-        seconds: f64,
-    ) -> Result<Timed> {
-        let mut fleet = Fleet(ensemble(gpu, &vec![(model, scene); copies])?);
-        let Clock { us, steps, batch } = Clock::run(&mut fleet, model, roll, seconds)?;
-        // The last one: the furthest in the arrays.
-        let last = fleet.0.last_mut().expect("there are several");
-        let (state, bytes) = (last.state()?, last.bytes_per_element());
-        drop(fleet);
-        // What a step of one of them moves; the times are not those of all at once.
-        let mut alone = GpuEngine::new(gpu, model, scene, false)?;
-        alone.set_resident(true)?;
-        roll.start(&mut alone, model)?;
-        let mut by_pass = alone.timed_advance(&roll.steps(0, 2))?;
-        by_pass.passes.iter_mut().for_each(|pass| pass.seconds = None);
-        Ok(Timed {
-            kind: Kind::GpuF32,
-            level: Level::detect(),
-            threads: 0,
-            copies,
-            us,
-            steps,
-            batch,
-            memory: Some(bytes),
-            state,
-            by_pass: Some(by_pass),
-        })
-    }
-
-    fn each(&mut self, mut act: impl FnMut(&mut GpuEngine) -> Result<()>) -> Result<()> {
-        self.0.iter_mut().try_for_each(&mut act)
-    }
-}
-
-impl Engine for Fleet {
-    fn info(&self) -> EngineInfo {
-        self.0[0].info()
-    }
-
-    fn begin_stage(&mut self, setup: &StageSetup) -> Result<()> {
-        self.each(|engine| engine.begin_stage(setup))
-    }
-
-    fn advance(&mut self, steps: &[Step]) -> Result<()> {
-        advance_together(&mut self.0, steps)
-    }
-
-    fn sample(&mut self, next: &Step) -> Result<Window> {
-        let windows = self.0.iter_mut().map(|engine| engine.sample(next)).collect::<Result<Vec<Window>>>()?;
-        Ok(windows.into_iter().next().expect("there are several"))
-    }
-
-    fn state(&mut self) -> Result<State> {
-        self.0[0].state()
-    }
-
-    fn set_velocity(&mut self, v: &[[f64; 3]], rim_rate: &Coordinates) -> Result<()> {
-        self.each(|engine| engine.set_velocity(v, rim_rate))
-    }
-
-    fn set_state(&mut self, state: &State, rim: &Coordinates, rim_rate: &Coordinates) -> Result<()> {
-        self.each(|engine| engine.set_state(state, rim, rim_rate))
-    }
-
-    fn force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {
-        self.0[0].force(x, v)
     }
 }
 

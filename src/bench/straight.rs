@@ -64,9 +64,10 @@ pub fn measure(
     let mut engine: Box<dyn Engine> = match kind {
         Kind::CpuF64 => cpu::engine(&model, &scene, Precision::F64, threads),
         Kind::CpuF32 => cpu::engine(&model, &scene, Precision::F32, threads),
-        Kind::GpuF32 | Kind::GpuF32Plus => {
+        Kind::GpuF32 | Kind::GpuF32Plus | Kind::GpuF64 => {
             let gpu = gpu.ok_or(Error::NoAdapter { detail: "none is open".into() })?;
-            Box::new(GpuEngine::new(gpu, &model, &scene, kind == Kind::GpuF32Plus)?)
+            let precision = kind.gpu_precision().expect("it is on the GPU");
+            Box::new(GpuEngine::new(gpu, &model, &scene, precision)?)
         }
     };
     let rolling = scene.stages.last().expect("the scene rolls").name.clone();

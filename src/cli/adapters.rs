@@ -62,6 +62,7 @@ fn text(report: &Report) -> String {
         line("storage buffers", format!("{} a stage", a.storage_buffers));
         line("work groups", format!("{} a dimension", a.workgroups));
         line("shared memory", bytes(a.shared_memory.into()));
+        line("double precision", if a.doubles { "yes" } else { "no" }.into());
         line("timestamps", if a.timestamps { "yes" } else { "no" }.into());
         line("usable", a.unusable.as_ref().map_or("yes".into(), |why| format!("no: {why}")));
         text += "\n";

@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use clap::ValueEnum;
+
 use super::choose::{self, Chosen, EngineArgs, EngineChoice, Precision};
 use super::format::{count, duration};
 use super::progress::Display;
@@ -78,15 +80,13 @@ impl Case {
 }
 
 fn precision_named(name: &str, file: &str) -> Result<Precision> {
-    [Precision::F64, Precision::F32, Precision::F32Plus].into_iter().find(|p| p.name() == name).ok_or_else(
-        || Error::Scene {
-            file: file.into(),
-            line: None,
-            key: format!("--over precision={name}"),
-            problem: "no such precision".into(),
-            remedy: "write f64, f32 or f32+".into(),
-        },
-    )
+    Precision::value_variants().iter().copied().find(|p| p.name() == name).ok_or_else(|| Error::Scene {
+        file: file.into(),
+        line: None,
+        key: format!("--over precision={name}"),
+        problem: "no such precision".into(),
+        remedy: "write f64, f32 or f32+".into(),
+    })
 }
 
 /// The engine of every run of a command: runs that are compared are not raced for. A real GPU if there is one, else the

@@ -6,7 +6,7 @@ use super::estimate::{self, Steps};
 use super::format::{duration, updates};
 use crate::cpu;
 use crate::engine::Engine;
-use crate::gpu::{AdapterReport, Gpu, GpuEngine, adapters};
+use crate::gpu::{self, AdapterReport, Gpu, GpuEngine, adapters};
 use crate::model::Model;
 use crate::scene::Scene;
 use crate::{Error, Result};
@@ -26,7 +26,7 @@ pub enum EngineChoice {
 /// Precisions a user can ask for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Precision {
-    /// Double (CPU only; the default there)
+    /// Double (the default on the CPU; on a GPU only if its shaders have it)
     F64,
     /// Single (the default on a GPU)
     F32,
@@ -42,6 +42,15 @@ impl Precision {
             Precision::F64 => "f64",
             Precision::F32 => "f32",
             Precision::F32Plus => "f32+",
+        }
+    }
+
+    /// On the GPU engine.
+    fn on_gpu(self) -> gpu::Precision {
+        match self {
+            Precision::F64 => gpu::Precision::F64,
+            Precision::F32 => gpu::Precision::F32,
+            Precision::F32Plus => gpu::Precision::F32Plus,
         }
     }
 }
@@ -81,21 +90,17 @@ pub struct Candidates {
 /// Who may run a scene.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for an engine that does not have the precision.
+/// [`Error::Unsupported`] for an engine that does not have the precision on any machine.
 pub fn candidates(engine: EngineChoice, precision: Option<Precision>) -> Result<Candidates> {
     use Precision::{F32, F32Plus, F64};
     let cpu = Some(precision.unwrap_or(F64)).filter(|p| *p != F32Plus);
-    let gpu = Some(precision.unwrap_or(F32)).filter(|p| *p != F64);
-    let missing =
-        |what: &str, instead: &str| Error::Unsupported { what: what.into(), instead: instead.into() };
+    let gpu = Some(precision.unwrap_or(F32));
     match engine {
         EngineChoice::Auto => Ok(Candidates { cpu, gpu }),
-        EngineChoice::Cpu if cpu.is_none() => {
-            Err(missing("--precision f32+ on the CPU engine", "use f64 or f32 there, or --engine gpu"))
-        }
-        EngineChoice::Gpu if gpu.is_none() => {
-            Err(missing("--precision f64 on the GPU engine", "use f32 or f32+ there, or --engine cpu"))
-        }
+        EngineChoice::Cpu if cpu.is_none() => Err(Error::Unsupported {
+            what: "--precision f32+ on the CPU engine".into(),
+            instead: "use f64 or f32 there, or --engine gpu".into(),
+        }),
         EngineChoice::Cpu => Ok(Candidates { cpu, gpu: None }),
         EngineChoice::Gpu => Ok(Candidates { cpu: None, gpu }),
     }
@@ -124,10 +129,7 @@ pub fn choose(args: &EngineArgs, model: &Model, scene: &Scene) -> Result<Chosen>
     let asked = |what: &str| format!("asked for with {what}");
     match candidates(args.engine, args.precision)? {
         Candidates { cpu: Some(precision), gpu: None } => {
-            let reason = match args.engine {
-                EngineChoice::Auto => "only the CPU engine has f64".into(),
-                _ => asked("--engine cpu"),
-            };
+            let reason = asked("--engine cpu");
             Ok(Chosen { engine: cpu(precision, args.threads, model, scene), reason })
         }
         Candidates { cpu: None, gpu: Some(precision) } => {
@@ -164,7 +166,7 @@ pub(super) fn gpu(
 }
 
 fn on_gpu(gpu: &Gpu, precision: Precision, model: &Model, scene: &Scene) -> Result<Box<dyn Engine>> {
-    Ok(Box::new(GpuEngine::new(gpu, model, scene, precision == Precision::F32Plus)?))
+    Ok(Box::new(GpuEngine::new(gpu, model, scene, precision.on_gpu())?))
 }
 
 /// Runs that the CPU engine ends sooner than this [s] are not worth a try: translating the kernels takes a software
@@ -191,6 +193,9 @@ impl Competition<'_> {
         let reports = adapters();
         let name = self.args.adapter.as_deref();
         match usable(&reports, name) {
+            Some(report) if self.on_gpu == Precision::F64 && !report.doubles && name.is_none() => {
+                self.cpu(&format!("{} has no double precision", report.name))
+            }
             // Who names a real GPU has chosen.
             Some(report) if !report.software && (name.is_some() || self.model.element_count() >= LARGE) => {
                 self.gpu_or_why_not(&report.name)

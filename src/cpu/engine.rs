@@ -1,25 +1,23 @@
-use super::elements::{self, Build, Composable, Elements, Failed, Kernel, Power};
+use super::build::{inverse_areas, nodes, rim_state, shape_table, slots_by_place, stored, sub64};
+use super::elements::{self, Build, Composable, Elements, Kernel};
 use super::energies::Stored;
 use super::layout::Layout;
-use super::nodes::{Books, Conditions, LineContact, LineSums, NO_SURFACE, NodePass, Nodes};
+use super::nodes::{Books, Conditions, LineContact, LineSums, NodePass, Nodes};
 use super::reduce::total;
-use super::rim::{Reaction, RimState};
-use super::schedule::{Share, Task, shares};
-use super::state::{Aligned, Field, View};
-use super::team::SpinBarrier;
-use crate::engine::{Engine, EngineInfo, Probe, StageSetup, State, Step, StepContact, SurfaceSum, Window};
+use super::rim::RimState;
+use super::schedule::{Share, shares};
+use super::state::{Field, View};
+use super::steps::Pointer;
+use crate::engine::{Engine, EngineInfo, StageSetup, State, Step, StepContact, SurfaceSum, Window};
 use crate::error::{Error, Result};
 use crate::model::mesh::Mesh;
-use crate::model::{Model, areas, frame};
+use crate::model::{Model, frame};
 use crate::physics::friction::AnyFriction;
 use crate::physics::lanes::{Level, WIDEST};
-use crate::physics::node::{Loads, Prediction, StepSize};
-use crate::physics::rim::{self, Coordinates};
-use crate::physics::road::Plane;
+use crate::physics::rim::Coordinates;
 use crate::physics::scalar::Real;
 use crate::physics::tensor::{Vec3, vec3};
 use crate::scene::{Element, Friction, Road, Scene};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Elements below which another thread costs more in waiting than it saves: a few microseconds of a step. With one point an
 /// element two threads took 29 us for the wheel's 880 on one machine, where one took 25, and 18 to 22 us on another, both.
@@ -32,44 +30,44 @@ fn elements_a_thread(element: Element) -> usize {
 
 /// The CPU engine in precision `T`.
 pub struct CpuEngine<T> {
-    kernel: Box<dyn Kernel<T>>,
-    elements: Elements<T>,
-    nodes: Nodes<T>,
+    pub(super) kernel: Box<dyn Kernel<T>>,
+    pub(super) elements: Elements<T>,
+    pub(super) nodes: Nodes<T>,
     /// Places of the mesh's nodes.
-    place: Vec<u32>,
-    stored: Stored,
+    pub(super) place: Vec<u32>,
+    pub(super) stored: Stored,
     /// Whether forces depend on velocities.
-    viscous: bool,
+    pub(super) viscous: bool,
     /// Where the forces of a node are, by place: `slot_start[p]..slot_start[p + 1]` of `slot_at`.
-    slot_start: Vec<u32>,
-    slot_at: Vec<u32>,
-    rim_nodes: Vec<usize>,
-    shares: Vec<Share>,
-    road: Option<Road>,
-    friction: Option<AnyFriction<T>>,
-    gravity: Vec3<T>,
+    pub(super) slot_start: Vec<u32>,
+    pub(super) slot_at: Vec<u32>,
+    pub(super) rim_nodes: Vec<usize>,
+    pub(super) shares: Vec<Share>,
+    pub(super) road: Option<Road>,
+    pub(super) friction: Option<AnyFriction<T>>,
+    pub(super) gravity: Vec3<T>,
     /// For the areas of surface nodes, where friction looks at pressure.
-    mesh: Option<Mesh>,
-    setup: StageSetup,
-    rim: RimState,
+    pub(super) mesh: Option<Mesh>,
+    pub(super) setup: StageSetup,
+    pub(super) rim: RimState,
     /// Origin of the engine's frame: positions are kept relative to it.
-    frame: [f64; 3],
-    grain: f64,
-    x: Field<T>,
-    v: Field<T>,
-    f: Field<T>,
+    pub(super) frame: [f64; 3],
+    pub(super) grain: f64,
+    pub(super) x: Field<T>,
+    pub(super) v: Field<T>,
+    pub(super) f: Field<T>,
     /// Viscous work so far of the window [J], by item and lane.
-    power: Vec<f64>,
-    sums: Vec<LineSums>,
-    surface_nodes: Vec<u32>,
-    surface: Vec<SurfaceSum>,
-    last_touch: Vec<u64>,
+    pub(super) power: Vec<f64>,
+    pub(super) sums: Vec<LineSums>,
+    pub(super) surface_nodes: Vec<u32>,
+    pub(super) surface: Vec<SurfaceSum>,
+    pub(super) last_touch: Vec<u64>,
     /// By line that can touch, of even and of odd steps: one is summed up while the other is written.
-    contact: [Vec<LineContact>; 2],
-    step_contact: Vec<StepContact>,
-    touching_before: u32,
-    steps: u64,
-    window_steps: u64,
+    pub(super) contact: [Vec<LineContact>; 2],
+    pub(super) step_contact: Vec<StepContact>,
+    pub(super) touching_before: u32,
+    pub(super) steps: u64,
+    pub(super) window_steps: u64,
 }
 
 impl<T: NodePass> CpuEngine<T>
@@ -162,11 +160,11 @@ where
         elements::width(self.nodes.level, size_of::<T>() == 4)
     }
 
-    fn view(&mut self) -> View<T> {
+    pub(super) fn view(&mut self) -> View<T> {
         View { x: self.x.pointers(), v: self.v.pointers(), f: self.f.pointers() }
     }
 
-    fn books(&mut self) -> [Books; 2] {
+    pub(super) fn books(&mut self) -> [Books; 2] {
         let [even, odd] = self.contact.each_mut().map(|c| c.as_mut_ptr());
         let mut books = |contact| Books {
             surface: self.surface.as_mut_ptr(),
@@ -175,22 +173,6 @@ where
             contact,
         };
         [books(even), books(odd)]
-    }
-
-    /// Internal force of the node at a place: its slots, first to last.
-    ///
-    /// # Safety
-    /// No thread writes forces.
-    unsafe fn gather(&self, place: usize, view: &View<T>) -> Vec3<T> {
-        let slots = self.slot_start[place] as usize..self.slot_start[place + 1] as usize;
-        let mut f = [T::zero(); 3];
-        for (k, &slot) in self.slot_at[slots].iter().enumerate() {
-            for d in 0..3 {
-                let part = unsafe { *view.f[d].add(slot as usize) };
-                f[d] = if k == 0 { part } else { f[d] + part };
-            }
-        }
-        f
     }
 
     /// Clears the slots that are added to lane by lane.
@@ -206,43 +188,8 @@ where
         }
     }
 
-    fn local(&self, q: &Coordinates) -> [f64; 3] {
+    pub(super) fn local(&self, q: &Coordinates) -> [f64; 3] {
         std::array::from_fn(|d| q[d] - self.frame[d])
-    }
-
-    /// Conditions of step number `number`, which takes the rim from coordinates `before` to `q`. `probe`: works over
-    /// the half step before.
-    fn conditions(
-        &self,
-        number: u64,
-        step: &Step,
-        before: &Coordinates,
-        q: &Coordinates,
-        probe: bool,
-    ) -> Conditions<T> {
-        let s = T::from_f64;
-        let (start, end) = (rim::rotation(before), rim::rotation(q));
-        let weights = if probe { [0.5 * step.dt_before, 0.0] } else { [0.5 * step.dtm(); 2] };
-        let size = StepSize { dt: s(step.dt), dtm: s(step.dtm()) };
-        let loads = Loads { gravity: self.gravity, alpha: s(self.setup.mass_damping) };
-        Conditions {
-            step: size,
-            loads,
-            prediction: Prediction::new(&loads, size),
-            road: self.road.map(|Road::Plane { point, normal, velocity }| {
-                Plane::new(point, normal, velocity, self.frame)
-            }),
-            friction: self.friction,
-            axle: vec3(self.local(q)),
-            axle_velocity: vec3(std::array::from_fn(|d| (q[d] - before[d]) / step.dt)),
-            rotation: end.to_cols_array_2d().map(vec3),
-            rotation_rate: ((end - start) * (1.0 / step.dt)).to_cols_array_2d().map(vec3),
-            axle_before: vec3(self.local(before)),
-            weights: weights.map(s),
-            has_gravity: self.gravity.iter().any(|g| *g != T::zero()),
-            has_damping: self.setup.mass_damping != 0.0,
-            number,
-        }
     }
 
     /// Lets the frame follow the axle, when single precision would otherwise run out of digits.
@@ -278,209 +225,6 @@ where
             false => Error::NotFinite { step, time, element },
         }
     }
-
-    /// Sums the reaction of the rubber (and of body forces on the rim nodes), node by node in order.
-    ///
-    /// # Safety
-    /// No thread writes forces or positions.
-    unsafe fn reaction(&self, view: &View<T>, axle: [f64; 3]) -> Reaction {
-        let mut sum = Reaction::default();
-        for &n in &self.rim_nodes {
-            let f_int = unsafe { self.gather(n, view) };
-            let weight = |i: usize| (self.nodes.mass.slice()[n] * self.gravity[i]).to_f64();
-            let f: [f64; 3] = std::array::from_fn(|i| weight(i) - f_int[i].to_f64());
-            let arm: [f64; 3] = std::array::from_fn(|i| unsafe { *view.x[i].add(n) }.to_f64() - axle[i]);
-            for i in 0..3 {
-                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                sum.force[i] += f[i];
-                sum.moment[i] += arm[j] * f[k] - arm[k] * f[j];
-            }
-        }
-        sum
-    }
-
-    /// Takes the steps with all threads; `Some((step, element))` where an element failed.
-    fn run_steps(
-        &mut self,
-        steps: &[Step],
-        plan: &[Conditions<T>],
-        free_rim: bool,
-    ) -> Option<(usize, usize)> {
-        let (view, books) = (self.view(), self.books());
-        let power = Pointer(self.power.as_mut_ptr());
-        let mut step_contact = std::mem::take(&mut self.step_contact);
-        let mut touching_before = self.touching_before;
-        let mut rim = self.rim;
-        let shared_rim = Pointer(&raw mut rim);
-        let host = Pointer(&raw mut step_contact);
-        let host_touching = Pointer(&raw mut touching_before);
-        let failed = AtomicUsize::new(usize::MAX);
-        let failed_step = AtomicUsize::new(usize::MAX);
-        let members = self.shares.len();
-        let barrier = SpinBarrier::new(members);
-        let (first, engine) = (self.steps, &*self);
-        let work = |member: usize| {
-            // SAFETY: shares do not overlap, barriers stand between what one writes and another reads, and the rim's
-            // state and the host's records are written by member 0 only.
-            for (n, step) in steps.iter().enumerate() {
-                let books = &books[n % 2];
-                let early = plan.get(n);
-                let bad =
-                    unsafe { engine.early(member, early, &view, books, power.get(), step.dtm(), false) };
-                if let Some(element) = bad.0 {
-                    failed.fetch_min(element, Ordering::Relaxed);
-                    failed_step.store(n, Ordering::Relaxed);
-                }
-                barrier.wait();
-                if failed.load(Ordering::Relaxed) != usize::MAX {
-                    return;
-                }
-                let own;
-                let conditions = if free_rim {
-                    let state = unsafe { *shared_rim.get() };
-                    let reaction = unsafe { engine.reaction(&view, engine.local(&state.q)) };
-                    let (q, rate) = state.advanced(&engine.setup, step, &reaction);
-                    own = engine.conditions(first + n as u64, step, &state.q, &q, false);
-                    barrier.wait();
-                    if member == 0 {
-                        unsafe { *shared_rim.get() = RimState { q, rate, ..state } };
-                    }
-                    &own
-                } else {
-                    &plan[n]
-                };
-                unsafe { engine.late(member, conditions, &view, books, false, free_rim) };
-                barrier.wait();
-                if member == 0 && engine.road.is_some() {
-                    let (host, touching) = unsafe { (&mut *host.get(), &mut *host_touching.get()) };
-                    let lines = unsafe { std::slice::from_raw_parts(books.contact, engine.contact[0].len()) };
-                    host.push(contact_of(lines, step.dtm(), touching));
-                }
-            }
-        };
-        std::thread::scope(|scope| {
-            for member in 1..members {
-                let work = &work;
-                scope.spawn(move || work(member));
-            }
-            work(0);
-        });
-        self.rim = rim;
-        self.step_contact = step_contact;
-        self.touching_before = touching_before;
-        let element = failed.load(Ordering::Relaxed);
-        (element != usize::MAX).then(|| (failed_step.load(Ordering::Relaxed), element))
-    }
-
-    /// A member's forces, and the nodes that may move before the threads meet. Without conditions none do: where the
-    /// rim is free they depend on its motion, and it on all forces.
-    ///
-    /// # Safety
-    /// No other thread works on this share.
-    #[allow(clippy::too_many_arguments)] // what a step needs
-    unsafe fn early(
-        &self,
-        member: usize,
-        conditions: Option<&Conditions<T>>,
-        view: &View<T>,
-        books: &Books,
-        power: *mut f64,
-        weight: f64,
-        probe: bool,
-    ) -> Failed {
-        let mut failed = Failed(None);
-        for task in &self.shares[member].early {
-            match (*task, conditions) {
-                (Task::Forces(item), _) => unsafe {
-                    let bad = self.forces(item as usize, view, power, weight);
-                    failed.0 = [failed.0, bad.0].into_iter().flatten().min();
-                },
-                (Task::Move(line), Some(c)) => unsafe {
-                    T::node_pass(&self.nodes, c, line as usize, view, books, probe);
-                },
-                (Task::Move(_), None) => {}
-            }
-        }
-        failed
-    }
-
-    /// Forces of an item.
-    ///
-    /// # Safety
-    /// As [`Kernel::forces`].
-    unsafe fn forces(&self, item: usize, view: &View<T>, power: *mut f64, weight: f64) -> Failed {
-        unsafe {
-            let power = Power { sums: power.add(item * WIDEST), weight };
-            self.kernel.forces(&self.elements, item, view, power)
-        }
-    }
-
-    /// The nodes of a member that wait for all forces, or all of its nodes.
-    ///
-    /// # Safety
-    /// No other thread works on this share.
-    unsafe fn late(
-        &self,
-        member: usize,
-        c: &Conditions<T>,
-        view: &View<T>,
-        books: &Books,
-        probe: bool,
-        all: bool,
-    ) {
-        let share = &self.shares[member];
-        let move_line = |line: u32| unsafe {
-            T::node_pass(&self.nodes, c, line as usize, view, books, probe);
-        };
-        for task in share.early.iter().filter(|_| all) {
-            if let Task::Move(line) = *task {
-                move_line(line);
-            }
-        }
-        share.late.iter().for_each(|line| move_line(*line));
-    }
-
-    /// The step after the window, not taken.
-    fn probe(&mut self, next: &Step) -> Probe {
-        let fresh = vec![LineSums::default(); self.sums.len()];
-        let window = std::mem::replace(&mut self.sums, fresh);
-        let mut power = vec![0.0; self.power.len()];
-        let (view, [books, _]) = (self.view(), self.books());
-        let shared_power = Pointer(power.as_mut_ptr());
-        let members = self.shares.len();
-        let barrier = SpinBarrier::new(members);
-        let engine = &*self;
-        let work = |member: usize| {
-            // SAFETY: as in `run_steps`; nothing but forces and sums is written.
-            unsafe {
-                let weight = 0.5 * next.dt_before;
-                engine.early(member, None, &view, &books, shared_power.get(), weight, true);
-                barrier.wait();
-                let reaction = engine.reaction(&view, engine.local(&engine.rim.q));
-                let (q, _) = engine.rim.advanced(&engine.setup, next, &reaction);
-                let c = engine.conditions(engine.steps, next, &engine.rim.q, &q, true);
-                barrier.wait();
-                engine.late(member, &c, &view, &books, true, true);
-            }
-        };
-        std::thread::scope(|scope| {
-            for member in 1..members {
-                let work = &work;
-                scope.spawn(move || work(member));
-            }
-            work(0);
-        });
-        let totals = total(&std::mem::replace(&mut self.sums, window));
-        let mut half_works = totals.works;
-        half_works.viscous = -power.iter().sum::<f64>();
-        half_works.internal -= half_works.viscous;
-        Probe {
-            mixed_kinetic: totals.mixed_kinetic,
-            half_works,
-            net_force: totals.net_force2.sqrt(),
-            internal_force: totals.internal_force2.sqrt(),
-        }
-    }
 }
 
 impl<T: NodePass> CpuEngine<T> {
@@ -489,131 +233,6 @@ impl<T: NodePass> CpuEngine<T> {
         let square = |p: usize| self.v.get(p).iter().map(|c| c * c).sum::<f64>();
         let one = |p: &u32| 0.5 * self.nodes.mass.slice()[*p as usize].to_f64() * square(*p as usize);
         self.place.iter().map(one).sum()
-    }
-}
-
-/// A step's contact from its lines, first to last; `before`: nodes that touched in the step before.
-fn contact_of(lines: &[LineContact], dtm: f64, before: &mut u32) -> StepContact {
-    let mut sum = StepContact { dtm, ..StepContact::default() };
-    let (mut entered, mut switched) = (0, 0);
-    for line in lines {
-        for d in 0..3 {
-            sum.force[d] += line.force[d];
-        }
-        sum.touching += line.touching;
-        entered += line.entered;
-        switched += line.switched;
-    }
-    // Those of the step before that are not among the touching have left.
-    let left = before.saturating_sub(sum.touching - entered);
-    sum.changes = entered + switched + left;
-    *before = sum.touching;
-    sum
-}
-
-/// A pointer that threads may share under a pass's rules.
-struct Pointer<T>(*mut T);
-// SAFETY: dereferenced only in unsafe code that keeps threads apart.
-unsafe impl<T> Send for Pointer<T> {}
-unsafe impl<T> Sync for Pointer<T> {}
-impl<T> Pointer<T> {
-    fn get(&self) -> *mut T {
-        self.0
-    }
-}
-
-fn inverse_areas<T: Real>(mesh: &Mesh, x: impl Fn(u32) -> [f64; 3], road: &Road) -> Vec<T> {
-    areas::inverse_areas(mesh, x, road).into_iter().map(T::from_f64).collect()
-}
-
-fn sub64(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|d| a[d] - b[d])
-}
-
-/// Data of the node pass by place.
-fn nodes<T: NodePass>(model: &Model, layout: &Layout, surface: &[u32], level: Level) -> Nodes<T> {
-    let place = |n: u32| layout.place[n as usize] as usize;
-    let (mut mass, mut inverse_mass) = (Aligned::zeros(layout.places), Aligned::zeros(layout.places));
-    for (n, &m) in model.mass.iter().enumerate() {
-        mass.slice_mut()[place(n as u32)] = T::from_f64(m);
-        inverse_mass.slice_mut()[place(n as u32)] = T::from_f64(1.0 / m);
-    }
-    let mut surface_of = vec![NO_SURFACE; layout.places];
-    for (k, &n) in surface.iter().enumerate() {
-        surface_of[place(n)] = k as u32;
-    }
-    let mut rim_arms = Field::zeros(layout.places);
-    for &n in &model.mesh.rim {
-        rim_arms.set(place(n), sub64(model.mesh.nodes[n as usize], model.mesh.axle));
-    }
-    Nodes {
-        lines: layout.lines.clone(),
-        mass,
-        inverse_mass,
-        surface_of,
-        rim_arms,
-        inverse_area: Vec::new(),
-        level,
-    }
-}
-
-fn stored(model: &Model, layout: &Layout, level: Level) -> Stored {
-    Stored {
-        element: model.element,
-        law: model.law,
-        level,
-        classes: model.classes.clone(),
-        class_of: model.class_of.clone(),
-        hexes: model.mesh.hexes.iter().map(|hex| hex.map(|n| layout.place[n as usize])).collect(),
-    }
-}
-
-/// Reference geometry by lanes, number by number.
-fn shape_table<T: Real>(model: &Model, layout: &Layout, width: usize) -> Aligned<T> {
-    let length = model.classes[0].numbers().len();
-    let mut table = Aligned::zeros(layout.shapes.len() * length * width);
-    for (lanes, part) in layout.shapes.iter().zip(table.slice_mut().chunks_exact_mut(length * width)) {
-        for (lane, class) in lanes[..width].iter().enumerate() {
-            for (i, number) in model.classes[*class as usize].numbers().iter().enumerate() {
-                part[i * width + lane] = T::from_f64(*number);
-            }
-        }
-    }
-    table
-}
-
-/// Slots of every place, in the order in which they are summed.
-fn slots_by_place(layout: &Layout) -> (Vec<u32>, Vec<u32>) {
-    let mut of_place = vec![&[][..]; layout.places];
-    let mut offset = vec![0; layout.places];
-    for line in &layout.lines {
-        for i in 0..line.nodes.len() {
-            of_place[line.start + i] = &line.slots;
-            offset[line.start + i] = i;
-        }
-    }
-    let (mut start, mut at) = (vec![0], Vec::new());
-    for (slots, offset) in of_place.iter().zip(&offset) {
-        at.extend(slots.iter().map(|slot| (slot + offset) as u32));
-        start.push(at.len() as u32);
-    }
-    (start, at)
-}
-
-fn rim_state(model: &Model) -> RimState {
-    let mass = |n: &u32| model.mass[*n as usize];
-    let axle = model.mesh.axle;
-    let [x, y, z] = axle;
-    let rim = &model.mesh.rim;
-    let arm2 = |n: &u32| {
-        let arm = sub64(model.mesh.nodes[*n as usize], axle);
-        arm[0] * arm[0] + arm[2] * arm[2]
-    };
-    RimState {
-        q: [x, y, z, 0.0, 0.0, 0.0],
-        rate: [0.0; 6],
-        node_mass: rim.iter().map(mass).sum(),
-        node_inertia: rim.iter().map(|n| mass(n) * arm2(n)).sum(),
     }
 }
 

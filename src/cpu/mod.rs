@@ -1,6 +1,7 @@
 //! The reference engine: the same passes in the same order as the GPU's, in f64 or f32, on any number of threads
 //! with the same bits.
 
+mod build;
 mod elements;
 mod energies;
 mod engine;
@@ -12,6 +13,7 @@ mod rim;
 mod rows;
 mod schedule;
 mod state;
+mod steps;
 mod team;
 
 pub use elements::element_forces;

@@ -2,7 +2,7 @@
 
 use super::Gpu;
 use super::chains::{Chains, SHARED_CLASSES};
-use super::layout::{self, MeanClass, PointClass, PointGeometry};
+use super::layout::{self, MeanClass, PointClass, PointGeometry, Real, Step, Wgsl, encode};
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::physics::element::{Class, hex8};
@@ -11,8 +11,10 @@ use bytemuck::Pod;
 use std::collections::HashMap;
 use wgpu::util::DeviceExt;
 
-/// Distance of two steps in the plan's uniform buffer: the largest offset alignment WebGPU allows.
-pub const STEP_STRIDE: usize = 256;
+/// Distance of two steps in the plan's uniform buffer [bytes]: a multiple of the largest offset alignment WebGPU allows.
+pub fn step_stride(real: Real) -> usize {
+    Step::size(real).next_multiple_of(256)
+}
 /// Steps the plan holds at a time.
 pub const PLAN: usize = 1024;
 
@@ -111,15 +113,15 @@ impl Buffers {
         self.map.insert(name, Slice::whole(buffer));
     }
 
-    /// A zeroed buffer of `count` items of T.
-    pub fn zeroed<T: Pod>(&mut self, gpu: &Gpu, name: &'static str, count: usize) {
-        self.parts::<T>(gpu, name, count, 1);
+    /// A zeroed buffer of `count` items of `each` bytes.
+    pub fn zeroed(&mut self, gpu: &Gpu, name: &'static str, each: usize, count: usize) {
+        self.parts(gpu, name, each, count, 1);
     }
 
-    /// A zeroed buffer with a part of `count` items of T for each of several bodies: the first one's part.
-    pub fn parts<T: Pod>(&mut self, gpu: &Gpu, name: &'static str, count: usize, bodies: usize) {
-        let size = (count.max(1) * size_of::<T>()).next_multiple_of(16) as u64;
-        let stride = (part_stride(count) * size_of::<T>()) as u64;
+    /// A zeroed buffer with a part of `count` items of `each` bytes for each of several bodies: the first one's part.
+    pub fn parts(&mut self, gpu: &Gpu, name: &'static str, each: usize, count: usize, bodies: usize) {
+        let size = (count.max(1) * each).next_multiple_of(16) as u64;
+        let stride = (part_stride(count) * each) as u64;
         let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(name),
             size: stride * (bodies as u64 - 1) + size,
@@ -153,12 +155,12 @@ fn usage() -> wgpu::BufferUsages {
 }
 
 /// What may not fit: name, bytes, and the limit it meets.
-fn needs(gpu: &Gpu, model: &Model, chains: &Chains, road: bool) -> [(&'static str, u64, u64); 3] {
+fn needs(gpu: &Gpu, model: &Model, chains: &Chains, road: bool, real: Real) -> [(&'static str, u64, u64); 3] {
     let binding = gpu.report.storage_binding.min(gpu.report.buffer);
     let (slots, nodes) = (chains.slot_count() as u64, model.node_count() as u64);
     let surface = if road { model.mesh.surface.len() as u64 } else { 0 };
-    let vector = size_of::<[f32; 4]>() as u64;
-    let record = size_of::<layout::SurfaceRecord>() as u64;
+    let vector = <[f64; 4]>::size(real) as u64;
+    let record = layout::SurfaceRecord::size(real) as u64;
     [
         ("corner forces [bytes]", vector * slots, binding),
         ("positions [bytes]", vector * nodes, binding),
@@ -168,8 +170,8 @@ fn needs(gpu: &Gpu, model: &Model, chains: &Chains, road: bool) -> [(&'static st
 }
 
 /// Refuses a scene that the adapter cannot hold, before anything starts.
-pub fn check_limits(gpu: &Gpu, model: &Model, chains: &Chains, road: bool) -> Result<()> {
-    for (what, need, limit) in needs(gpu, model, chains, road) {
+pub fn check_limits(gpu: &Gpu, model: &Model, chains: &Chains, road: bool, real: Real) -> Result<()> {
+    for (what, need, limit) in needs(gpu, model, chains, road, real) {
         if need > limit {
             let fits = (limit as f64 / need as f64 * model.element_count() as f64) as u64;
             let adapter = gpu.report.name.clone();
@@ -180,28 +182,28 @@ pub fn check_limits(gpu: &Gpu, model: &Model, chains: &Chains, road: bool) -> Re
 }
 
 /// A position or direction, padded.
-pub fn vec4(v: [f64; 3]) -> [f32; 4] {
-    [v[0] as f32, v[1] as f32, v[2] as f32, 0.0]
+pub fn vec4(v: [f64; 3]) -> [f64; 4] {
+    [v[0], v[1], v[2], 0.0]
 }
 
 /// Shape classes as the element's shader reads them.
-pub fn classes(model: &Model) -> Vec<u8> {
+pub fn classes(model: &Model, real: Real) -> Vec<u8> {
     match model.element {
-        Element::UniformGradient { .. } => bytes_of(&model.classes, mean_class),
-        Element::Q1p0 | Element::Full => bytes_of(&model.classes, point_class),
+        Element::UniformGradient { .. } => bytes_of(&model.classes, mean_class, real),
+        Element::Q1p0 | Element::Full => bytes_of(&model.classes, point_class, real),
     }
 }
 
-fn bytes_of<T: Pod>(classes: &[Class<f64>], shared: fn(&Class<f64>) -> T) -> Vec<u8> {
-    classes.iter().flat_map(|class| bytemuck::bytes_of(&shared(class)).to_vec()).collect()
+fn bytes_of<T: Wgsl>(classes: &[Class<f64>], shared: fn(&Class<f64>) -> T, real: Real) -> Vec<u8> {
+    encode(real, &classes.iter().map(shared).collect::<Vec<T>>())
 }
 
 /// Bytes of the uniform buffer of shape classes that are shared.
-pub fn shared_classes_size(element: Element) -> usize {
+pub fn shared_classes_size(element: Element, real: Real) -> usize {
     SHARED_CLASSES
         * match element {
-            Element::UniformGradient { .. } => size_of::<MeanClass>(),
-            Element::Q1p0 | Element::Full => size_of::<PointClass>(),
+            Element::UniformGradient { .. } => MeanClass::stride(real),
+            Element::Q1p0 | Element::Full => PointClass::stride(real),
         }
 }
 
@@ -210,28 +212,22 @@ fn point_class(class: &Class<f64>) -> PointClass {
         // The shaders' element coordinates run from -1 to 1.
         let (m, unit) = (class.metric[q], hex8::TO_UNIT * hex8::TO_UNIT);
         PointGeometry {
-            metric: [m.xx, m.yy, m.zz].map(|v| (v * unit) as f32),
-            det_j0: class.det_j0[q] as f32,
-            metric_off: [m.xy, m.xz, m.yz].map(|v| (v * unit) as f32),
-            inverse_det_j0: (1.0 / class.det_j0[q]) as f32,
+            metric: [m.xx, m.yy, m.zz].map(|v| v * unit),
+            det_j0: class.det_j0[q],
+            metric_off: [m.xy, m.xz, m.yz].map(|v| v * unit),
+            inverse_det_j0: 1.0 / class.det_j0[q],
         }
     });
-    PointClass {
-        points,
-        volume: class.volume as f32,
-        inverse_volume: class.inverse_volume as f32,
-        pad0: 0,
-        pad1: 0,
-    }
+    PointClass { points, volume: class.volume, inverse_volume: class.inverse_volume }
 }
 
 fn mean_class(class: &Class<f64>) -> MeanClass {
     MeanClass {
         gradient: class.gradient.map(vec4),
         gamma_x: class.gamma_x.map(vec4),
-        volume: class.volume as f32,
-        inverse_volume: class.inverse_volume as f32,
-        hourglass_stiffness: class.hourglass_stiffness as f32,
-        hourglass_viscosity: class.hourglass_viscosity as f32,
+        volume: class.volume,
+        inverse_volume: class.inverse_volume,
+        hourglass_stiffness: class.hourglass_stiffness,
+        hourglass_viscosity: class.hourglass_viscosity,
     }
 }

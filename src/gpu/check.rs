@@ -28,7 +28,7 @@ pub fn compensated_sums(gpu: &Gpu, choice: &Choice) -> Result<()> {
         .collect();
     let mut buffers = Buffers::default();
     buffers.filled(gpu, "pairs", pairs.as_flattened());
-    buffers.zeroed::<[f32; 4]>(gpu, "results", 128);
+    buffers.zeroed(gpu, "results", size_of::<[f32; 4]>(), 128);
     let program = Program::new(gpu, choice, Kernel::CheckSums, &[])?;
     let bound = Bound::new(gpu, program, |name| buffers.get(name));
     let mut encoder = gpu.device.create_command_encoder(&Default::default());

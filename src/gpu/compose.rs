@@ -3,7 +3,8 @@
 //! Module scope ignores order in WGSL, so the parts are simply joined; naga then drops what the entry point does not
 //! reach, and what is left is exactly what runs.
 
-use super::layout;
+use super::layout::{self, Real};
+use super::precision::Precision;
 use crate::error::{Error, Result};
 use crate::scene::{Element, Friction, Law};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -82,7 +83,6 @@ shaders!(
     "lib/points",
     "lib/points_elastic",
     "lib/points_viscous",
-    "lib/recip_cbrt",
     "lib/take_step",
     "lib/two_sum",
     "material/mooney_rivlin",
@@ -91,13 +91,23 @@ shaders!(
     "nodes/all",
     "nodes/boundary",
     "nodes/interior",
-    "position/f32",
-    "position/f32_plus",
-    "position/now_f32",
-    "position/now_f32_plus",
+    "position/now_pairs",
+    "position/now_plain",
+    "position/pairs",
+    "position/plain",
     "position/resident",
-    "position/store_f32",
-    "position/store_f32_plus",
+    "position/store_pairs",
+    "position/store_plain",
+    "real/double",
+    "real/exp_double",
+    "real/exp_single",
+    "real/log_double",
+    "real/log_single",
+    "real/recip_cbrt_double",
+    "real/recip_cbrt_single",
+    "real/single",
+    "real/turn_double",
+    "real/turn_single",
     "rim/book",
     "rim/book_none",
     "rim/carried",
@@ -157,23 +167,27 @@ pub struct Choice {
     pub gravity: bool,
     pub damping: bool,
     pub rim: RimKind,
-    /// Positions as hi + lo pairs.
-    pub plus: bool,
+    pub precision: Precision,
     /// Few shape classes, the same along all chains of a work group.
     pub shared_classes: bool,
     /// Nodes and slots follow from numbers: a generator's mesh.
     pub lattice: bool,
 }
 
-/// A friction law and what finds the force with it.
-fn friction_parts(law: &Friction) -> Vec<&'static str> {
+/// What a shader may use: what every adapter has, and doubles.
+pub(super) fn capabilities() -> Capabilities {
+    Capabilities::default() | Capabilities::FLOAT64
+}
+
+/// A friction law and what finds the force with it; `exponential`: the part with e^x.
+fn friction_parts(law: &Friction, exponential: &'static str) -> Vec<&'static str> {
     let areas = if law.needs_area() { "contact/areas" } else { "contact/areas_none" };
     match law {
         Friction::Coulomb { .. } => vec!["contact/friction", "friction/coulomb"],
         Friction::Viscous { .. } => vec!["contact/friction_law", "friction/viscous", areas],
-        Friction::Stribeck { .. } => vec!["contact/friction_law", "friction/stribeck", areas],
+        Friction::Stribeck { .. } => vec!["contact/friction_law", "friction/stribeck", exponential, areas],
         Friction::PressureVelocity { .. } => {
-            vec!["contact/friction_law", "friction/pressure_velocity", areas]
+            vec!["contact/friction_law", "friction/pressure_velocity", exponential, areas]
         }
     }
 }
@@ -181,6 +195,12 @@ fn friction_parts(law: &Friction) -> Vec<&'static str> {
 impl Choice {
     /// Parts of a kernel, in reading order.
     pub fn parts(&self, kernel: Kernel) -> Vec<&'static str> {
+        let mut parts = vec![self.of_real("real/single", "real/double")];
+        parts.extend(self.own_parts(kernel));
+        parts
+    }
+
+    fn own_parts(&self, kernel: Kernel) -> Vec<&'static str> {
         match kernel {
             Kernel::ElementForce => {
                 let rates: &[&str] = if self.viscous { &["viscosity/rates"] } else { &[] };
@@ -207,26 +227,51 @@ impl Choice {
             ]
             .concat(),
             Kernel::Rim => {
-                [vec!["kernels/rim", self.now(), self.gravity_part()], self.gather_parts()].concat()
+                let turn = self.of_real("real/turn_single", "real/turn_double");
+                [vec!["kernels/rim", turn, self.now(), self.gravity_part()], self.gather_parts()].concat()
             }
             Kernel::SurfaceState => vec!["kernels/surface_state", "lib/index", self.now()],
             Kernel::Gather => [vec!["kernels/gather", "lib/index"], self.gather_parts()].concat(),
             Kernel::Reduce => vec!["kernels/reduce"],
-            Kernel::Rebase if self.plus => vec!["kernels/rebase_plus", "lib/index", "lib/two_sum"],
+            Kernel::Rebase if self.precision.has_pairs() => {
+                vec!["kernels/rebase_plus", "lib/index", "lib/two_sum"]
+            }
             Kernel::Rebase => vec!["kernels/rebase", "lib/index"],
             Kernel::CheckSums => vec!["kernels/check_sums", "lib/two_sum"],
         }
     }
 
+    fn of_real(&self, single: &'static str, double: &'static str) -> &'static str {
+        match self.precision.real() {
+            Real::Single => single,
+            Real::Double => double,
+        }
+    }
+
+    /// The exponential, and what it needs.
+    fn exponential(&self) -> &'static str {
+        self.of_real("real/exp_single", "real/exp_double")
+    }
+
+    fn logarithm(&self) -> Vec<&'static str> {
+        match self.precision.real() {
+            Real::Single => vec!["real/log_single"],
+            Real::Double => vec!["real/log_double", self.exponential()],
+        }
+    }
+
     fn element_parts(&self) -> Vec<&'static str> {
+        let recip_cbrt = self.of_real("real/recip_cbrt_single", "real/recip_cbrt_double");
         let law = match self.law {
             Law::NeoHookean { .. } => {
-                vec!["material/neo_hookean", "lib/invariants_i1", "lib/recip_cbrt"]
+                vec!["material/neo_hookean", "lib/invariants_i1", recip_cbrt]
             }
             Law::MooneyRivlin { .. } => {
-                vec!["material/mooney_rivlin", "lib/invariants_i2", "lib/recip_cbrt"]
+                vec!["material/mooney_rivlin", "lib/invariants_i2", recip_cbrt]
             }
-            Law::MooneyRivlinEq4 { .. } => vec!["material/mooney_rivlin_eq4", "lib/invariants_i2"],
+            Law::MooneyRivlinEq4 { .. } => {
+                [vec!["material/mooney_rivlin_eq4", "lib/invariants_i2"], self.logarithm()].concat()
+            }
         };
         let classes = if self.shared_classes { "class/shared" } else { "class/own" };
         let element = match self.element {
@@ -255,7 +300,7 @@ impl Choice {
     }
 
     fn position(&self) -> &'static str {
-        if self.plus { "position/f32_plus" } else { "position/f32" }
+        if self.precision.has_pairs() { "position/pairs" } else { "position/plain" }
     }
 
     /// Element and node pass in one.
@@ -297,9 +342,11 @@ impl Choice {
         parts.extend(match (self.road, self.friction) {
             (false, _) => vec!["contact/none"],
             (true, None) => vec!["contact/project", "contact/frictionless", "road/plane"],
-            (true, Some(law)) => {
-                [vec!["contact/project", "road/plane", "road/velocity"], friction_parts(&law)].concat()
-            }
+            (true, Some(law)) => [
+                vec!["contact/project", "road/plane", "road/velocity"],
+                friction_parts(&law, self.exponential()),
+            ]
+            .concat(),
         });
         parts.push(if self.held { "hold/components" } else { "hold/none" });
         parts
@@ -340,16 +387,16 @@ impl Choice {
         } else {
             vec!["contact/step_none"]
         });
-        parts.extend(match (self.plus, self.road) {
-            (false, _) => vec!["position/store_f32"],
-            (true, false) => vec!["position/store_f32_plus", "lib/two_sum", "contact/landing_none"],
-            (true, true) => vec!["position/store_f32_plus", "lib/two_sum", "contact/landing"],
+        parts.extend(match (self.precision.has_pairs(), self.road) {
+            (false, _) => vec!["position/store_plain"],
+            (true, false) => vec!["position/store_pairs", "lib/two_sum", "contact/landing_none"],
+            (true, true) => vec!["position/store_pairs", "lib/two_sum", "contact/landing"],
         });
         parts
     }
 
     fn now(&self) -> &'static str {
-        if self.plus { "position/now_f32_plus" } else { "position/now_f32" }
+        if self.precision.has_pairs() { "position/now_pairs" } else { "position/now_plain" }
     }
 
     fn damping_book(&self) -> &'static str {
@@ -362,7 +409,8 @@ impl Choice {
 
     /// WGSL of a kernel: shared structs and parts, joined.
     pub fn text(&self, kernel: Kernel) -> String {
-        let mut text: String = layout::all().iter().map(|s| s.text.as_str()).collect();
+        let shared = layout::all(self.precision.real());
+        let mut text: String = shared.iter().map(|s| s.text.as_str()).collect();
         text += match self.element {
             Element::UniformGradient { .. } => "alias Class = MeanClass;\n",
             Element::Q1p0 | Element::Full => "alias Class = PointClass;\n",
@@ -382,7 +430,7 @@ impl Choice {
         let mut module = naga::front::wgsl::parse_str(&text)
             .map_err(|e| wrong(format!("{kernel:?}: {}", e.emit_to_string(&text))))?;
         naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
-        Validator::new(ValidationFlags::all(), Capabilities::default())
+        Validator::new(ValidationFlags::all(), capabilities())
             .validate(&module)
             .map_err(|e| wrong(format!("{kernel:?}: {e:?}")))?;
         Ok(module)

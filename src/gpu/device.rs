@@ -23,6 +23,8 @@ pub struct AdapterReport {
     pub shared_memory: u32,
     /// Whether timestamps inside passes can be read.
     pub timestamps: bool,
+    /// Whether shaders may compute in double precision.
+    pub doubles: bool,
     /// Whether this program can run on it, and if not, why not.
     pub unusable: Option<String>,
 }
@@ -75,6 +77,7 @@ fn report(adapter: &wgpu::Adapter) -> AdapterReport {
         workgroups: limits.max_compute_workgroups_per_dimension,
         shared_memory: limits.max_compute_workgroup_storage_size,
         timestamps: adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES),
+        doubles: adapter.features().contains(wgpu::Features::SHADER_F64),
         unusable,
     }
 }
@@ -125,7 +128,8 @@ impl Gpu {
         let report = report(adapter);
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("hexroll"),
-            required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+            required_features: adapter.features()
+                & (wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::SHADER_F64),
             required_limits: adapter.limits(),
             ..Default::default()
         };

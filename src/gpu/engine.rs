@@ -4,7 +4,9 @@ use super::Gpu;
 use super::buffers::{Buffers, PLAN, vec4};
 use super::compose::{Choice, Kernel, RimKind};
 use super::ensemble::Seat;
+use super::layout::{Real, Wgsl, decode, encode};
 use super::order::Order;
+use super::precision::Precision;
 use super::prepared::Prepared;
 use super::program::Program;
 use super::readback::Readback;
@@ -57,7 +59,7 @@ pub struct GpuEngine {
     pub(super) fixed_submits: bool,
     pub(super) surface_nodes: Vec<u32>,
     /// As the device has them, with the sign of [`upload::masses`].
-    pub(super) masses: Vec<f32>,
+    pub(super) masses: Vec<f64>,
     /// How the mesh fits into one work group, if it does and may.
     shape: Option<Shape>,
     fits: Option<Shape>,
@@ -110,12 +112,13 @@ impl Counts {
 }
 
 impl GpuEngine {
-    /// An engine at rest in the reference shape. `plus`: positions as hi + lo pairs (`f32+`).
+    /// An engine at rest in the reference shape.
     ///
     /// # Errors
-    /// The scene does not fit the adapter's limits, or (`plus`) the adapter's arithmetic spoils compensated sums.
-    pub fn new(gpu: &Gpu, model: &Model, scene: &Scene, plus: bool) -> Result<Self> {
-        let prepared = Prepared::new(gpu, model, scene, plus)?;
+    /// The scene does not fit the adapter's limits, the adapter does not have the precision, or (`f32+`) its arithmetic spoils
+    /// compensated sums.
+    pub fn new(gpu: &Gpu, model: &Model, scene: &Scene, precision: Precision) -> Result<Self> {
+        let prepared = Prepared::new(gpu, model, scene, precision)?;
         let buffers = prepared.buffers(gpu, 1);
         GpuEngine::of_prepared(gpu, prepared, buffers, None)
     }
@@ -137,8 +140,9 @@ impl GpuEngine {
             0 => None,
             _ => Some(bound(program(Kernel::SurfaceState)?)),
         };
-        let rebase = match counts.rim {
-            0 => None,
+        // Double precision has digits enough for any road.
+        let rebase = match (counts.rim, choice.precision.real()) {
+            (0, _) | (_, Real::Double) => None,
             _ => Some(bound(program(Kernel::Rebase)?)),
         };
         let reductions = Reductions::new(gpu, &choice, &buffers, counts.rim > 0)?;
@@ -177,7 +181,7 @@ impl GpuEngine {
             counts,
         };
         gpu.check()?;
-        if choice.plus {
+        if choice.precision.has_pairs() {
             super::check::compensated_sums(gpu, &engine.choice)?;
         }
         Ok(engine)
@@ -215,6 +219,11 @@ impl GpuEngine {
         self.buffers.bytes() as f64 / self.counts.elements as f64
     }
 
+    /// What numbers are on the device.
+    pub(super) fn real(&self) -> Real {
+        self.choice.precision.real()
+    }
+
     pub(super) fn element_groups(&self) -> [u32; 3] {
         self.counts.groups(GROUP * self.counts.chain_groups)
     }
@@ -226,7 +235,8 @@ impl GpuEngine {
 
     fn compose_stage(&mut self) -> Result<()> {
         if self.choice.for_stage(&self.setup).other_works() && !self.buffers.has("works") {
-            self.buffers.zeroed::<[f32; 2]>(&self.gpu, "works", self.counts.nodes);
+            let each = <[f64; 2]>::size(self.real());
+            self.buffers.zeroed(&self.gpu, "works", each, self.counts.nodes);
         }
         let Self { gpu, choice, constants, buffers, setup, rim, shape, seat, .. } = self;
         let resident = shape.map(|shape| (shape, seat.as_ref()));
@@ -246,7 +256,7 @@ impl GpuEngine {
         if shift == [0.0; 3] {
             return Ok(());
         }
-        self.buffers.get("shift").write(&self.gpu, bytemuck::bytes_of(&vec4(shift)));
+        self.buffers.get("shift").write(&self.gpu, &encode(self.real(), &[vec4(shift)]));
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let mut pass = encoder.begin_compute_pass(&Default::default());
         rebase.dispatch(&mut pass, self.counts.groups(self.counts.nodes), 0);
@@ -259,7 +269,7 @@ impl GpuEngine {
     pub(super) fn write_rim(&self) {
         if self.has_free_rim() {
             let state = self.rim.upload(self.frame);
-            self.buffers.get("rim_state").write(&self.gpu, bytemuck::bytes_of(&state));
+            self.buffers.get("rim_state").write(&self.gpu, &encode(self.real(), &[state]));
         }
     }
 
@@ -276,13 +286,10 @@ impl GpuEngine {
         self.order.as_ref().map_or(values.to_vec(), |order| order.to_device(values))
     }
 
-    /// Absolute positions of f32 or f32+ data.
-    pub(super) fn absolute(&self, hi: &[f32], lo: Option<&[f32]>) -> Vec<[f64; 3]> {
-        let at = |n: usize, d: usize| {
-            let low = lo.map_or(0.0, |lo| f64::from(lo[4 * n + d]));
-            f64::from(hi[4 * n + d]) + low + self.frame[d]
-        };
-        self.by_model((0..hi.len() / 4).map(|n| std::array::from_fn(|d| at(n, d))).collect())
+    /// Absolute positions; `lo`: what is beside them in pairs.
+    pub(super) fn absolute(&self, hi: &[[f64; 4]], lo: Option<&[[f64; 4]]>) -> Vec<[f64; 3]> {
+        let at = |n: usize, d: usize| hi[n][d] + lo.map_or(0.0, |lo| lo[n][d]) + self.frame[d];
+        self.by_model((0..hi.len()).map(|n| std::array::from_fn(|d| at(n, d))).collect())
     }
 }
 
@@ -301,7 +308,7 @@ impl Engine for GpuEngine {
     fn info(&self) -> EngineInfo {
         EngineInfo {
             engine: "gpu".into(),
-            precision: if self.choice.plus { "f32+" } else { "f32" }.into(),
+            precision: self.choice.precision.name().into(),
             device: self.gpu.report.name.clone(),
             driver: self.gpu.report.driver.clone(),
             threads: 0,
@@ -329,25 +336,25 @@ impl Engine for GpuEngine {
         self.restore()?;
         let mut read = Readback::default();
         let (x, v) = (read.add(self.buffers.get("positions")), read.add(self.buffers.get("velocities")));
-        let lo = self.choice.plus.then(|| read.add(self.buffers.get("positions_lo")));
+        let lo = self.choice.precision.has_pairs().then(|| read.add(self.buffers.get("positions_lo")));
         let data = read.run(&self.gpu, |_| {})?;
-        let floats = |part| -> &[f32] { bytemuck::cast_slice(data.part(part)) };
-        let v: Vec<[f64; 3]> = floats(v).chunks_exact(4).map(|v| [v[0], v[1], v[2]].map(f64::from)).collect();
-        Ok(State { x: self.absolute(floats(x), lo.map(floats)), v: self.by_model(v) })
+        let vectors = |part| -> Vec<[f64; 4]> { decode(self.real(), data.part(part)) };
+        let v = vectors(v).into_iter().map(|[x, y, z, _]| [x, y, z]).collect();
+        Ok(State { x: self.absolute(&vectors(x), lo.map(vectors).as_deref()), v: self.by_model(v) })
     }
 
     fn set_velocity(&mut self, v: &[[f64; 3]], rim_rate: &Coordinates) -> Result<()> {
         self.restore()?;
-        let mut v: Vec<[f32; 4]> = self.by_device(v).into_iter().map(vec4).collect();
+        let mut v: Vec<[f64; 4]> = self.by_device(v).into_iter().map(vec4).collect();
         if self.window_steps > 0 {
             // The window's works stand beside the velocities.
             let mut read = Readback::default();
             let part = read.add(self.buffers.get("velocities"));
             let data = read.run(&self.gpu, |_| {})?;
-            let old: &[[f32; 4]] = bytemuck::cast_slice(data.part(part));
-            v.iter_mut().zip(old).for_each(|(v, old)| v[3] = old[3]);
+            let old: Vec<[f64; 4]> = decode(self.real(), data.part(part));
+            v.iter_mut().zip(&old).for_each(|(v, old)| v[3] = old[3]);
         }
-        self.buffers.get("velocities").write(&self.gpu, bytemuck::cast_slice(&v));
+        self.buffers.get("velocities").write(&self.gpu, &encode(self.real(), &v));
         self.rim.set_rate(&self.setup, rim_rate);
         self.write_rim();
         self.gpu.check()

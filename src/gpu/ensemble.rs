@@ -9,7 +9,8 @@
 use super::Gpu;
 use super::buffers::Slice;
 use super::engine::GpuEngine;
-use super::layout::Member;
+use super::layout::{Member, Real, encode};
+use super::precision::Precision;
 use super::prepared::Prepared;
 use super::readback::Readback;
 use super::stage::Bound;
@@ -31,7 +32,7 @@ use std::time::Instant;
 /// [`Error::Unsupported`] for a mesh that does not fit; those of [`GpuEngine::new`].
 pub fn ensemble(gpu: &Gpu, bodies: &[(&Model, &Scene)]) -> Result<Vec<GpuEngine>> {
     let prepared = bodies.iter().map(|(model, scene)| {
-        let prepared = Prepared::new(gpu, model, scene, false)?;
+        let prepared = Prepared::new(gpu, model, scene, Precision::F32)?;
         if prepared.shape.is_none() {
             return Err(Error::Unsupported {
                 what: format!("an ensemble of meshes of {} elements on {}", prepared.counts.elements, gpu.report.name),
@@ -237,7 +238,10 @@ impl Together {
         }
         let data = read.copy(&self.gpu, self.encode(&last))?;
         let seconds = begun.elapsed().as_secs_f64();
-        Ok(parts.into_iter().map(|parts| Taken::of(parts.map(|part| data.part(part)), seconds)).collect())
+        Ok(parts
+            .into_iter()
+            .map(|parts| Taken::of(parts.map(|part| data.part(part)), Real::Single, seconds))
+            .collect())
     }
 
     /// Dispatches by rounds: in a round each group has one, since its bodies' parts are listed in one place.
@@ -266,7 +270,7 @@ impl Together {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         for dispatch in round {
             let members: Vec<Member> = dispatch.iter().map(|job| job.member).collect();
-            self.groups[dispatch[0].seated.0].members.write(&self.gpu, bytemuck::cast_slice(&members));
+            self.groups[dispatch[0].seated.0].members.write(&self.gpu, &encode(Real::Single, &members));
             dispatch[0].program.dispatch(&mut pass, [members.len() as u32, 1, 1], 0);
         }
         drop(pass);

@@ -1,7 +1,8 @@
 //! What the adapter can do at best, measured: the yardsticks a pass is held against.
 
 use super::Gpu;
-use super::buffers::Buffers;
+use super::buffers::{Buffers, Slice};
+use super::layout::{Real, encode};
 use super::program::Program;
 use super::stage::Bound;
 use crate::error::Result;
@@ -25,6 +26,8 @@ pub struct Limits {
     pub copied: u64,
     /// Single-precision operations a second, a multiply-add being two, in registers only.
     pub flops: f64,
+    /// The same in double precision, where the adapter has it.
+    pub flops_double: Option<f64>,
     /// What a dispatch costs that waits for the one before and does nothing [s].
     pub dispatch: f64,
     /// What an empty submission costs that the host waits for [s].
@@ -41,7 +44,11 @@ impl Limits {
         Ok(Limits {
             copy_bandwidth: copy_bandwidth(gpu, copied)?,
             copied,
-            flops: multiply_add_rate(gpu)?,
+            flops: multiply_add_rate(gpu, Real::Single)?,
+            flops_double: match gpu.report.doubles {
+                true => Some(multiply_add_rate(gpu, Real::Double)?),
+                false => None,
+            },
             dispatch: dispatch_latency(gpu)?,
             submit: submit_latency(gpu)?,
         })
@@ -56,13 +63,20 @@ pub fn copy_bandwidth(gpu: &Gpu, bytes: u64) -> Result<f64> {
     Ok(2.0 * bytes as f64 / kernel.seconds(gpu, [groups.div_ceil(rows), rows, 1])?)
 }
 
-/// Single-precision operations a second in registers, a multiply-add being two.
-pub fn multiply_add_rate(gpu: &Gpu) -> Result<f64> {
+/// Operations a second in registers, a multiply-add being two.
+pub fn multiply_add_rate(gpu: &Gpu, real: Real) -> Result<f64> {
     // Enough threads for 256 processors of 2,048 threads; a software adapter has few.
     let (groups, turns) = if gpu.report.software { (64, 512) } else { (8192, 256) };
     let threads = groups * GROUP;
-    let text = include_str!("../../shaders/bench/multiply_add.wgsl");
-    let kernel = Loop::new(gpu, "multiply_add", text, 16 * threads, &[("turns", turns as f64)])?;
+    let precision = match real {
+        Real::Single => include_str!("../../shaders/real/single.wgsl"),
+        Real::Double => include_str!("../../shaders/real/double.wgsl"),
+    };
+    let text = [precision, include_str!("../../shaders/bench/multiply_add.wgsl")].concat();
+    let bytes = 4 * real.bytes() * threads;
+    let kernel = Loop::new(gpu, "multiply_add", &text, bytes, &[("turns", turns as f64)])?;
+    // The factor and the summand.
+    kernel.from.write(gpu, &encode(real, &[[0.5; 4], [1.0; 4]]));
     let operations = 2 * MULTIPLY_ADDS * turns * threads;
     Ok(operations as f64 / kernel.seconds(gpu, [groups as u32, 1, 1])?)
 }
@@ -89,18 +103,18 @@ pub fn submit_latency(gpu: &Gpu) -> Result<f64> {
 /// A kernel that can be dispatched any number of times.
 struct Loop {
     kernel: Bound,
+    from: Slice,
 }
 
 impl Loop {
     fn new(gpu: &Gpu, label: &str, text: &str, bytes: usize, constants: &[(&str, f64)]) -> Result<Loop> {
         let mut buffers = Buffers::default();
-        // The factor and the summand of the multiply-adds come first.
-        buffers.zeroed::<u8>(gpu, "from_buffer", bytes);
-        buffers.zeroed::<u8>(gpu, "to_buffer", bytes);
-        buffers.get("from_buffer").write(gpu, bytemuck::cast_slice(&[[0.5f32; 4], [1.0; 4]]));
+        buffers.zeroed(gpu, "from_buffer", 1, bytes);
+        buffers.zeroed(gpu, "to_buffer", 1, bytes);
         let program = Program::alone(gpu, label, text, constants)?;
         gpu.check()?;
-        Ok(Loop { kernel: Bound::new(gpu, program, |name| buffers.get(name)) })
+        let from = buffers.get("from_buffer").clone();
+        Ok(Loop { kernel: Bound::new(gpu, program, |name| buffers.get(name)), from })
     }
 
     /// Seconds of one submission of `count` dispatches.

@@ -6,6 +6,7 @@ use super::chains::{self, Chains};
 use super::compose::{Choice, RimKind};
 use super::engine::Counts;
 use super::order::{self, Order, Ordered};
+use super::precision::Precision;
 use super::resident::Shape;
 use super::upload::{self, Table};
 use crate::error::Result;
@@ -32,16 +33,16 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// `plus`: positions as hi + lo pairs.
-    ///
     /// # Errors
-    /// It does not fit the adapter's limits.
-    pub fn new(gpu: &Gpu, model: &Model, scene: &Scene, plus: bool) -> Result<Prepared> {
+    /// It does not fit the adapter's limits, or the adapter does not have the precision.
+    pub fn new(gpu: &Gpu, model: &Model, scene: &Scene, precision: Precision) -> Result<Prepared> {
+        precision.check(gpu)?;
+        let real = precision.real();
         let mesh = scene.friction.filter(Friction::needs_area).map(|_| model.mesh.clone());
         let Ordered { model, order } = order::ordered(model);
         let model = model.into_owned();
         let chains = Chains::new(&model, chains::longest(gpu.report.software, model.element_count()));
-        buffers::check_limits(gpu, &model, &chains, scene.road.is_some())?;
+        buffers::check_limits(gpu, &model, &chains, scene.road.is_some(), real)?;
         let choice = Choice {
             element: model.element,
             law: model.law,
@@ -52,7 +53,7 @@ impl Prepared {
             gravity: scene.gravity != [0.0; 3],
             damping: false,
             rim: if model.mesh.rim.is_empty() { RimKind::None } else { RimKind::Prescribed },
-            plus,
+            precision,
             shared_classes: chains.shared_classes,
             lattice: chains.lattice.is_some(),
         };
@@ -71,7 +72,11 @@ impl Prepared {
             choice,
             constants: upload::constants(&model, scene, &chains),
             tables: upload::tables(&model, &chains, &choice),
-            shape: if plus { None } else { Shape::new(gpu, &chains, counts.nodes) },
+            shape: match precision {
+                Precision::F32 => Shape::new(gpu, &chains, counts.nodes),
+                // No work group's memory holds positions and forces in more than 32 bits each.
+                Precision::F32Plus | Precision::F64 => None,
+            },
             counts,
             scene: scene.clone(),
             frame: frame::shift(grain, model.mesh.axle, [0.0; 3], scene.road.as_ref()),
@@ -92,7 +97,7 @@ impl Prepared {
     /// Bodies of this kind whose arrays the adapter can bind as one.
     pub fn most_bodies(&self, gpu: &Gpu) -> usize {
         let most = gpu.report.storage_binding.min(gpu.report.buffer);
-        (most / upload::largest_part(&self.counts)).max(1) as usize
+        (most / upload::largest_part(&self.counts, self.choice.precision.real())).max(1) as usize
     }
 
     /// Buffers for so many bodies of this kind; the first one's.

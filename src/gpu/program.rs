@@ -2,10 +2,10 @@
 
 use super::Gpu;
 use super::buffers::Slice;
-use super::compose::{Choice, Kernel};
-use super::layout::Step;
+use super::compose::{Choice, Kernel, capabilities};
+use super::layout::{Real, Step, Wgsl};
 use crate::error::Result;
-use naga::valid::{Capabilities, GlobalUse, ValidationFlags, Validator};
+use naga::valid::{GlobalUse, ValidationFlags, Validator};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -21,9 +21,17 @@ pub struct Binding {
 }
 
 impl Binding {
+    /// Bytes bound at a time, where it is the plan's uniform.
+    fn step_size(&self) -> Option<u64> {
+        match self.kind {
+            BindingKind::Step(real) => Some(Step::size(real) as u64),
+            _ => None,
+        }
+    }
+
     /// Bytes that a pass moves through it if it reads, or writes, all of a buffer of `size` bytes once.
     pub fn touched(&self, size: u64) -> u64 {
-        let size = if self.kind == BindingKind::Step { size_of::<Step>() as u64 } else { size };
+        let size = self.step_size().unwrap_or(size);
         size * (u64::from(self.read) + u64::from(self.written))
     }
 }
@@ -34,14 +42,14 @@ pub enum BindingKind {
     Storage {
         writes: bool,
     },
-    /// The plan's uniform, at a dynamic offset: one step after the other.
-    Step,
+    /// The plan's uniform, at a dynamic offset: one step after the other, in this precision.
+    Step(Real),
     Uniform,
 }
 
 /// Bindings of a valid module with one entry point, by index.
 pub fn bindings(module: &naga::Module) -> Vec<Binding> {
-    let analysis = Validator::new(ValidationFlags::all(), Capabilities::default())
+    let analysis = Validator::new(ValidationFlags::all(), capabilities())
         .validate(module)
         .expect("only valid modules are asked for their bindings");
     let entry = analysis.get_entry_point(0);
@@ -50,7 +58,9 @@ pub fn bindings(module: &naga::Module) -> Vec<Binding> {
             naga::AddressSpace::Storage { access } => {
                 BindingKind::Storage { writes: access.contains(naga::StorageAccess::STORE) }
             }
-            naga::AddressSpace::Uniform if v.name.as_deref() == Some("step") => BindingKind::Step,
+            naga::AddressSpace::Uniform if v.name.as_deref() == Some("step") => {
+                BindingKind::Step(step_precision(module, v))
+            }
             naga::AddressSpace::Uniform => BindingKind::Uniform,
             _ => return None,
         };
@@ -66,6 +76,12 @@ pub fn bindings(module: &naga::Module) -> Vec<Binding> {
     let mut all: Vec<Binding> = module.global_variables.iter().filter_map(binding).collect();
     all.sort_by_key(|b| b.index);
     all
+}
+
+/// The precision of a plan by the size of its entries.
+fn step_precision(module: &naga::Module, step: &naga::GlobalVariable) -> Real {
+    let size = module.types[step.ty].inner.size(module.to_ctx()) as usize;
+    if size == Step::size(Real::Double) { Real::Double } else { Real::Single }
 }
 
 /// Programs of a device by their text and constants: what two engines, two stages or two uses of one kernel share is
@@ -169,8 +185,7 @@ impl Program {
         let slices: Vec<Slice> = self.bindings.iter().map(|b| of(&b.name)).collect();
         let entry = |(b, slice)| {
             let (b, slice): (&Binding, &Slice) = (b, slice);
-            let size = (b.kind == BindingKind::Step).then_some(size_of::<Step>() as u64);
-            let resource = wgpu::BindingResource::Buffer(slice.binding(size));
+            let resource = wgpu::BindingResource::Buffer(slice.binding(b.step_size()));
             wgpu::BindGroupEntry { binding: b.index, resource }
         };
         let entries: Vec<wgpu::BindGroupEntry> = self.bindings.iter().zip(&slices).map(entry).collect();
@@ -183,7 +198,7 @@ impl Program {
 
     /// Whether it reads the plan of steps.
     pub fn has_step(&self) -> bool {
-        self.bindings.iter().any(|b| b.kind == BindingKind::Step)
+        self.bindings.iter().any(|b| matches!(b.kind, BindingKind::Step(_)))
     }
 }
 
@@ -196,8 +211,8 @@ fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {
         BindingKind::Storage { writes } => {
             (wgpu::BufferBindingType::Storage { read_only: !writes }, false, None)
         }
-        BindingKind::Step => {
-            (wgpu::BufferBindingType::Uniform, true, wgpu::BufferSize::new(size_of::<Step>() as u64))
+        BindingKind::Step(_) => {
+            (wgpu::BufferBindingType::Uniform, true, binding.step_size().and_then(wgpu::BufferSize::new))
         }
         BindingKind::Uniform => (wgpu::BufferBindingType::Uniform, false, None),
     };

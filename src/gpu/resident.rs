@@ -2,7 +2,7 @@
 
 use super::Gpu;
 use super::chains::{Chains, LANES};
-use super::layout::Step;
+use super::layout::{Real, Step, Wgsl};
 use std::collections::HashSet;
 
 /// Threads of the work group: enough for a chain each on small wheels, few enough that each has all the registers it
@@ -40,7 +40,7 @@ impl Shape {
     pub fn within(threads: usize, memory: usize, chains: &Chains, nodes: usize) -> Option<Shape> {
         let threads = THREADS.min(threads) / LANES * LANES;
         let words = (3 * nodes).max(4 * threads);
-        let bytes = 2 * size_of::<f32>() * words + size_of::<Step>();
+        let bytes = 2 * size_of::<f32>() * words + Step::size(Real::Single);
         if threads < 2 * LANES || bytes > memory {
             return None;
         }

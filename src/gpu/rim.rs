@@ -46,7 +46,7 @@ impl FreeRim {
         let rotation = columns(rim::rotation(&self.q));
         let start = columns(DMat3::from_rotation_y(self.q[SPIN]));
         let origin = vec4(std::array::from_fn(|d| self.q[d] - frame[d]));
-        let rate = [self.rate[0], self.rate[1], self.rate[2], self.rate[SPIN]].map(|r| r as f32);
+        let rate = [self.rate[0], self.rate[1], self.rate[2], self.rate[SPIN]];
         layout::RimState {
             at: [0.0; 4],
             velocity: rate,
@@ -70,8 +70,8 @@ impl FreeRim {
     /// Adds the moves of a window.
     pub fn download(&mut self, state: &layout::RimState) {
         for (k, component) in [0, 1, 2, SPIN].into_iter().enumerate() {
-            self.q[component] += f64::from(state.at[k]);
-            self.rate[component] = f64::from(state.velocity[k]);
+            self.q[component] += state.at[k];
+            self.rate[component] = state.velocity[k];
         }
     }
 }

@@ -4,7 +4,7 @@ use super::Gpu;
 use super::buffers::Buffers;
 use super::compose::{Choice, Kernel};
 use super::engine::{GpuEngine, PARTIALS};
-use super::layout::SurfaceRecord;
+use super::layout::{Real, RimState, SurfaceRecord, Wgsl, decode};
 use super::program::Program;
 use super::readback::Readback;
 use super::stage::{Bound, StagePrograms};
@@ -120,7 +120,7 @@ impl GpuEngine {
         let [rim, viscous, half_viscous, probes, energies, sums, contact, states, rim_state] =
             parts.map(|p| data.part(p));
         if self.has_free_rim() {
-            self.rim.download(bytemuck::from_bytes(rim_state));
+            self.rim.download(&RimState::take(self.real(), rim_state));
         }
         let mut window = Window {
             steps: std::mem::take(&mut self.window_steps),
@@ -129,8 +129,9 @@ impl GpuEngine {
             step_contact: std::mem::take(&mut self.step_contact),
             ..Window::default()
         };
-        let sum = |bytes: &[u8], column: usize| column_sum(bytes, column);
-        let (e, least) = (sum(energies, 0), least_w(energies));
+        let real = self.real();
+        let sum = |bytes: &[u8], column: usize| column_sum(real, bytes, column);
+        let (e, least) = (sum(energies, 0), least_w(real, energies));
         (window.strain, window.hourglass, window.min_jacobian) = (e[0], e[1], least);
         let (w, r0, r1) = (sum(probes, 3), sum(rim, 0), sum(rim, 1));
         let total = |bytes: &[u8]| if self.choice.viscous { sum(bytes, 0).iter().sum() } else { 0.0 };
@@ -180,23 +181,23 @@ impl GpuEngine {
             // A rim node beside the surface: its facet faces no road.
             Err(_) => mesh.nodes[n as usize],
         };
-        let areas = inverse_areas(mesh, at, road);
-        self.buffers.get("inverse_areas").write(&self.gpu, bytemuck::cast_slice(&areas));
+        let areas = inverse_areas(mesh, at, road, self.real());
+        self.buffers.get("inverse_areas").write(&self.gpu, &areas);
     }
 
     fn read_surface(&self, window: &mut Window, [sums, contact, states]: [&[u8]; 3]) {
-        let sums: &[SurfaceRecord] = bytemuck::cast_slice(sums);
+        let sums: Vec<SurfaceRecord> = decode(self.real(), sums);
         let contact: &[u32] = bytemuck::cast_slice(contact);
-        let states: &[[f32; 4]] = bytemuck::cast_slice(states);
+        let states: Vec<[f64; 4]> = decode(self.real(), states);
         for (k, record) in sums.iter().take(self.surface_nodes.len()).enumerate() {
             let [x, v] = [states[2 * k], states[2 * k + 1]];
-            window.works.normal += f64::from(record.normal_work);
-            window.works.friction += f64::from(record.friction_work);
+            window.works.normal += record.normal_work;
+            window.works.friction += record.friction_work;
             window.surface.push(SurfaceSum {
-                x: std::array::from_fn(|d| f64::from(x[d]) + self.frame[d]),
-                v: [v[0], v[1], v[2]].map(f64::from),
-                impulse: [0, 1, 2].map(|d| f64::from(record.impulse[d])),
-                friction_work: f64::from(record.friction_work),
+                x: std::array::from_fn(|d| x[d] + self.frame[d]),
+                v: [v[0], v[1], v[2]],
+                impulse: [0, 1, 2].map(|d| record.impulse[d]),
+                friction_work: record.friction_work,
                 touching: record.touching,
                 sticking: record.sticking,
                 touches: contact[k] != 0,
@@ -207,18 +208,18 @@ impl GpuEngine {
 }
 
 /// Sum of one column's partials, first to last, in double precision.
-fn column_sum(bytes: &[u8], column: usize) -> [f64; 4] {
-    let partials: &[[f32; 4]] = bytemuck::cast_slice(bytes);
+fn column_sum(real: Real, bytes: &[u8], column: usize) -> [f64; 4] {
+    let partials: Vec<[f64; 4]> = decode(real, bytes);
     let mut sum = [0.0; 4];
     for partial in &partials[column * PARTIALS..(column + 1) * PARTIALS] {
         for (s, p) in sum.iter_mut().zip(partial) {
-            *s += f64::from(*p);
+            *s += p;
         }
     }
     sum
 }
 
-fn least_w(bytes: &[u8]) -> f64 {
-    let partials: &[[f32; 4]] = bytemuck::cast_slice(bytes);
-    partials.iter().map(|p| f64::from(p[3])).fold(f64::INFINITY, f64::min)
+fn least_w(real: Real, bytes: &[u8]) -> f64 {
+    let partials: Vec<[f64; 4]> = decode(real, bytes);
+    partials.iter().map(|p| p[3]).fold(f64::INFINITY, f64::min)
 }

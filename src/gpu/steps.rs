@@ -1,9 +1,9 @@
 //! The step loop: plans, passes, submissions.
 
-use super::buffers::{STEP_STRIDE, vec4};
+use super::buffers::{step_stride, vec4};
 use super::engine::{GROUP, GpuEngine};
 use super::ensemble::Job;
-use super::layout;
+use super::layout::{self, Real, Wgsl, decode, encode};
 use super::readback::Readback;
 use super::stage::Bound;
 use super::{upload, verdict};
@@ -31,7 +31,7 @@ pub(super) const NO_FLAGS: Flags = Flags { failure: [u32::MAX; 2], done: u32::MA
 /// What the device says of the steps of a submission.
 pub struct Taken {
     /// Contact by step and work group.
-    contact: Vec<[f32; 4]>,
+    contact: Vec<[f64; 4]>,
     flags: Flags,
     /// How long it took [s].
     seconds: f64,
@@ -39,10 +39,10 @@ pub struct Taken {
 
 impl Taken {
     /// From the bytes of contact, failure and sentinel.
-    pub fn of([contact, failure, done]: [&[u8]; 3], seconds: f64) -> Taken {
+    pub fn of([contact, failure, done]: [&[u8]; 3], real: Real, seconds: f64) -> Taken {
         let word = |bytes: &[u8], k: usize| bytemuck::cast_slice::<u8, u32>(bytes)[k];
         let flags = Flags { failure: [word(failure, 0), word(failure, 1)], done: word(done, 0) };
-        Taken { contact: bytemuck::cast_slice(contact).to_vec(), flags, seconds }
+        Taken { contact: decode(real, contact), flags, seconds }
     }
 }
 
@@ -53,20 +53,22 @@ pub(super) struct Pass<'e> {
     pub groups: [u32; 3],
     /// Share of the nodes that it moves; 1 where it is about elements.
     pub share: f64,
+    /// Of the plan.
+    pub real: Real,
 }
 
 impl Pass<'_> {
     /// Records it for the step whose plan entry is `slot`.
     pub fn dispatch(&self, pass: &mut wgpu::ComputePass, slot: usize) {
-        self.program.dispatch(pass, self.groups, (slot * STEP_STRIDE) as u32);
+        self.program.dispatch(pass, self.groups, (slot * step_stride(self.real)) as u32);
     }
 }
 
 /// Contact over the body in one step from its sums by work groups, as shaders/contact/book.wgsl packs them.
-fn step_contact(step: &Step, sums: &[[f32; 4]]) -> StepContact {
+fn step_contact(step: &Step, sums: &[[f64; 4]]) -> StepContact {
     let mut all = StepContact { dtm: step.dtm(), ..StepContact::default() };
     for sum in sums {
-        all.force.iter_mut().zip(sum).for_each(|(f, s)| *f += f64::from(*s));
+        all.force.iter_mut().zip(sum).for_each(|(f, s)| *f += s);
         let counts = sum[3] as u32;
         all.touching += counts % 4096;
         all.changes += counts / 4096;
@@ -92,14 +94,14 @@ impl GpuEngine {
         let speed = vec4(std::array::from_fn(|d| (step.rim[d] - before[d]) / step.dt));
         let moves = vec4(std::array::from_fn(|d| step.rim[d] - self.rim.q[d]));
         layout::Step {
-            dt: step.dt as f32,
-            dtm: step.dtm() as f32,
-            weight_before: weights[0] as f32,
-            weight_after: weights[1] as f32,
+            dt: step.dt,
+            dtm: step.dtm(),
+            weight_before: weights[0],
+            weight_after: weights[1],
             index: index as u32,
-            viscous_weight: weights[2] as f32,
-            spin: (step.rim[rim::SPIN] - self.rim.q[rim::SPIN]) as f32,
-            pad: 0,
+            viscous_weight: weights[2],
+            spin: step.rim[rim::SPIN] - self.rim.q[rim::SPIN],
+            zero: 0,
             axle: if free { moves } else { local(&step.rim) },
             axle_velocity: speed,
             axle_before: local(before),
@@ -109,18 +111,17 @@ impl GpuEngine {
             rate0: rate[0],
             rate1: rate[1],
             rate2: rate[2],
-            load: [step.load[0], step.load[1], step.load[2], step.load[rim::SPIN]].map(|l| l as f32),
+            load: [step.load[0], step.load[1], step.load[2], step.load[rim::SPIN]],
             slot: slot as u32,
-            pad1: 0,
-            pad2: 0,
-            pad3: 0,
         }
     }
 
     pub(super) fn write_plan(&self, entries: &[layout::Step]) {
-        let mut bytes = vec![0u8; entries.len() * STEP_STRIDE];
-        for (slot, entry) in bytes.chunks_exact_mut(STEP_STRIDE).zip(entries) {
-            slot[..size_of::<layout::Step>()].copy_from_slice(bytemuck::bytes_of(entry));
+        let stride = step_stride(self.real());
+        let mut bytes = Vec::with_capacity(entries.len() * stride);
+        for entry in entries {
+            entry.put(self.real(), &mut bytes);
+            bytes.resize(bytes.len().next_multiple_of(stride), 0);
         }
         self.buffers.get("step").write(&self.gpu, &bytes);
     }
@@ -133,8 +134,9 @@ impl GpuEngine {
     /// The passes of one step, in order.
     pub(super) fn passes(&self) -> Vec<Pass<'_>> {
         let stage = self.stage.as_ref().expect("a stage is composed before its passes are asked for");
+        let real = self.real();
         if let Some(program) = &stage.resident {
-            return vec![Pass { name: "resident", program, groups: [1, 1, 1], share: 1.0 }];
+            return vec![Pass { name: "resident", program, groups: [1, 1, 1], share: 1.0, real }];
         }
         let share = |count: usize| count as f64 / self.counts.nodes as f64;
         let (rim, boundary) = (share(self.counts.rim), share(self.counts.surface + self.counts.rim));
@@ -143,18 +145,21 @@ impl GpuEngine {
             program: &self.force,
             groups: self.element_groups(),
             share: 1.0,
+            real,
         }];
         passes.extend(stage.rim.as_ref().map(|program| Pass {
             name: "rim",
             program,
             groups: [1, 1, 1],
             share: rim,
+            real,
         }));
         passes.push(Pass {
             name: "node",
             program: &stage.node,
             groups: self.counts.groups(self.counts.nodes),
             share: 1.0 - boundary,
+            real,
         });
         let groups = self.counts.groups(self.counts.surface + self.counts.rim);
         passes.extend(stage.boundary.as_ref().map(|program| Pass {
@@ -162,6 +167,7 @@ impl GpuEngine {
             program,
             groups,
             share: boundary,
+            real,
         }));
         passes
     }
@@ -174,7 +180,7 @@ impl GpuEngine {
         };
         let entries: Vec<layout::Step> = steps.iter().zip(starts).enumerate().map(entry).collect();
         if self.is_resident() {
-            self.buffers.get("plan").write(&self.gpu, bytemuck::cast_slice(&entries));
+            self.buffers.get("plan").write(&self.gpu, &encode(self.real(), &entries));
             if self.seat.is_none() {
                 self.write_member(steps.len());
             }
@@ -191,7 +197,7 @@ impl GpuEngine {
     /// Tells the next dispatch of a resident kernel to take steps of this body alone.
     pub(super) fn write_member(&self, steps: usize) {
         if self.is_resident() {
-            self.buffers.get("members").write(&self.gpu, bytemuck::bytes_of(&self.member(steps)));
+            self.buffers.get("members").write(&self.gpu, &encode(self.real(), &[self.member(steps)]));
         }
     }
 
@@ -245,7 +251,7 @@ impl GpuEngine {
 
     /// Bytes of the contact of `steps` steps.
     fn contact_bytes(&self, steps: usize) -> u64 {
-        (steps * self.contact_groups() * size_of::<[f32; 4]>()) as u64
+        (steps * self.contact_groups() * <[f64; 4]>::size(self.real())) as u64
     }
 
     /// Submits `steps` steps that are encoded, waits, and reads what the device says of them.
@@ -255,7 +261,8 @@ impl GpuEngine {
         let parts = [read.add_first(contact, self.contact_bytes(steps)), read.add(failure), read.add(done)];
         let begun = Instant::now();
         let data = read.copy(&self.gpu, encoder)?;
-        Ok(Taken::of(parts.map(|part| data.part(part)), begun.elapsed().as_secs_f64()))
+        let seconds = begun.elapsed().as_secs_f64();
+        Ok(Taken::of(parts.map(|part| data.part(part)), self.real(), seconds))
     }
 
     /// Books steps that the device has taken.

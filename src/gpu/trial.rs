@@ -3,6 +3,7 @@
 
 use super::buffers::vec4;
 use super::engine::GpuEngine;
+use super::layout::{decode, encode};
 use super::readback::Readback;
 use super::upload::split;
 use crate::error::Result;
@@ -12,8 +13,8 @@ impl GpuEngine {
     pub(super) fn trial_force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {
         self.lend()?;
         self.write_positions(x);
-        let v: Vec<[f32; 4]> = self.by_device(v).into_iter().map(vec4).collect();
-        self.buffers.get("velocities").write(&self.gpu, bytemuck::cast_slice(&v));
+        let v: Vec<[f64; 4]> = self.by_device(v).into_iter().map(vec4).collect();
+        self.buffers.get("velocities").write(&self.gpu, &encode(self.real(), &v));
         let mut read = Readback::default();
         // The gather pass writes where the velocities were: the element pass has read them.
         let forces = read.add(self.buffers.get("velocities"));
@@ -22,17 +23,18 @@ impl GpuEngine {
             self.force.dispatch(&mut pass, self.element_groups(), 0);
             self.gather.dispatch(&mut pass, self.counts.groups(self.counts.nodes), 0);
         })?;
-        let forces: &[f32] = bytemuck::cast_slice(data.part(forces));
-        Ok(self.by_model(forces.chunks_exact(4).map(|f| [f[0], f[1], f[2]].map(f64::from)).collect()))
+        let forces: Vec<[f64; 4]> = decode(self.real(), data.part(forces));
+        Ok(self.by_model(forces.into_iter().map(|[x, y, z, _]| [x, y, z]).collect()))
     }
 
     pub(super) fn write_positions(&self, x: &[[f64; 3]]) {
-        let (hi, lo) = split(&self.by_device(x), self.frame, &self.masses);
-        let write = |name, data: &[[f32; 4]]| {
-            self.buffers.get(name).write(&self.gpu, bytemuck::cast_slice(data));
+        let precision = self.choice.precision;
+        let (hi, lo) = split(&self.by_device(x), self.frame, &self.masses, precision);
+        let write = |name, data: &[[f64; 4]]| {
+            self.buffers.get(name).write(&self.gpu, &encode(precision.real(), data));
         };
         write("positions", &hi);
-        if self.choice.plus {
+        if precision.has_pairs() {
             write("positions_lo", &lo);
         }
     }
@@ -42,7 +44,7 @@ impl GpuEngine {
         if self.lent.is_some() {
             return Ok(());
         }
-        let lo: &[&'static str] = if self.choice.plus { &["positions_lo"] } else { &[] };
+        let lo: &[&'static str] = if self.choice.precision.has_pairs() { &["positions_lo"] } else { &[] };
         let names = [&["positions", "velocities", "viscous_work"], lo].concat();
         let mut read = Readback::default();
         let parts: Vec<_> = names.iter().map(|name| read.add(self.buffers.get(name))).collect();

@@ -1,11 +1,12 @@
 //! What a model becomes on the device: constants of the kernels, and every buffer with its content.
 
 use super::Gpu;
-use super::buffers::{self, Buffers, PLAN, STEP_STRIDE, part_stride, vec4};
+use super::buffers::{self, Buffers, PLAN, part_stride, step_stride, vec4};
 use super::chains::{Chains, LANES};
 use super::compose::Choice;
 use super::engine::{Counts, GROUP, PARTIALS};
-use super::layout::{self, RimSum, SurfaceRecord};
+use super::layout::{self, Member, Real, RimSum, SurfaceRecord, Wgsl, encode};
+use super::precision::Precision;
 use crate::model::mesh::Mesh;
 use crate::model::{Model, areas};
 use crate::scene::{Friction, Road, Scene};
@@ -20,9 +21,9 @@ const FLAGS: usize = 4;
 pub const MEMBERS: usize = 512;
 
 /// The part of the body number `body` of a dispatch in which it takes `steps`.
-pub fn member(counts: &Counts, body: usize, steps: usize) -> layout::Member {
+pub fn member(counts: &Counts, body: usize, steps: usize) -> Member {
     let at = |count: usize| (body * part_stride(count)) as u32;
-    layout::Member {
+    Member {
         steps: steps as u32,
         nodes: at(counts.nodes),
         surface: at(counts.surface),
@@ -75,8 +76,8 @@ fn friction_constants(law: &Friction) -> Vec<(&'static str, f64)> {
 }
 
 /// One over the area of every surface node with the nodes at `x` [1/m2].
-pub fn inverse_areas(mesh: &Mesh, x: impl Fn(u32) -> [f64; 3], road: &Road) -> Vec<f32> {
-    areas::inverse_areas(mesh, x, road).into_iter().map(|a| a as f32).collect()
+pub fn inverse_areas(mesh: &Mesh, x: impl Fn(u32) -> [f64; 3], road: &Road, real: Real) -> Vec<u8> {
+    encode(real, &areas::inverse_areas(mesh, x, road))
 }
 
 /// A table that no kernel writes.
@@ -90,15 +91,15 @@ pub struct Table {
 
 /// Every table of a body: what bodies must have in common to share a dispatch, beside the kernels.
 pub fn tables(model: &Model, chains: &Chains, choice: &Choice) -> Vec<Table> {
-    let mesh = &model.mesh;
+    let (mesh, real) = (&model.mesh, choice.precision.real());
     let table = |name, bytes: &[u8]| Table { name, bytes: bytes.to_vec(), uniform: None };
     let mut all = vec![
         table("chain_groups", bytemuck::cast_slice(&chains.groups)),
         table("chain_classes", bytemuck::cast_slice(&chains.classes)),
         Table {
             name: "classes",
-            bytes: buffers::classes(model),
-            uniform: chains.shared_classes.then(|| buffers::shared_classes_size(model.element)),
+            bytes: buffers::classes(model, real),
+            uniform: chains.shared_classes.then(|| buffers::shared_classes_size(model.element, real)),
         },
     ];
     if chains.lattice.is_none() {
@@ -110,12 +111,12 @@ pub fn tables(model: &Model, chains: &Chains, choice: &Choice) -> Vec<Table> {
         ]);
     }
     let arm = |&n: &u32| vec4(std::array::from_fn(|d| mesh.nodes[n as usize][d] - mesh.axle[d]));
-    let arms: Vec<[f32; 4]> = mesh.rim.iter().map(arm).collect();
+    let arms: Vec<[f64; 4]> = mesh.rim.iter().map(arm).collect();
     let surface = if choice.road { &mesh.surface[..] } else { &[] };
     all.extend([
         table("roles", bytemuck::cast_slice(&roles(model, choice.road))),
         table("rim_nodes", bytemuck::cast_slice(&mesh.rim)),
-        table("rim_arms", bytemuck::cast_slice(&arms)),
+        table("rim_arms", &encode(real, &arms)),
         table("surface_nodes", bytemuck::cast_slice(surface)),
         table("boundary", bytemuck::cast_slice(&[surface, &mesh.rim].concat())),
     ]);
@@ -139,30 +140,34 @@ pub fn create(gpu: &Gpu, tables: &[Table], choice: &Choice, counts: &Counts, bod
             None => b.filled(gpu, table.name, &table.bytes),
         }
     }
+    let real = choice.precision.real();
     let (nodes, surface, threads) = (counts.nodes, counts.surface, LANES * counts.chain_groups);
-    b.parts::<[f32; 4]>(gpu, "positions", nodes, bodies);
-    if choice.plus {
-        b.parts::<[f32; 4]>(gpu, "positions_lo", nodes, bodies);
+    let mut parts = |name, each, count| b.parts(gpu, name, each, count, bodies);
+    let (scalar, pair, vector) = (f64::size(real), <[f64; 2]>::size(real), <[f64; 4]>::size(real));
+    parts("positions", vector, nodes);
+    if choice.precision.has_pairs() {
+        parts("positions_lo", vector, nodes);
     }
-    b.parts::<[f32; 4]>(gpu, "velocities", nodes, bodies);
+    parts("velocities", vector, nodes);
     if bodies > 1 {
         // A stage of one of them may have what needs it.
-        b.parts::<[f32; 2]>(gpu, "works", nodes, bodies);
+        parts("works", pair, nodes);
     }
-    b.parts::<[f32; 4]>(gpu, "slots", counts.slots, bodies);
-    b.parts::<[f32; 4]>(gpu, "energies", threads, bodies);
-    b.parts::<f32>(gpu, "viscous_work", if choice.viscous { threads } else { 1 }, bodies);
-    b.parts::<RimSum>(gpu, "rim_sums", counts.rim, bodies);
-    b.parts::<SurfaceRecord>(gpu, "surface_sums", surface, bodies);
-    b.parts::<[f32; 4]>(gpu, "surface_states", 2 * surface, bodies);
-    b.parts::<u32>(gpu, "contact_states", surface, bodies);
-    b.parts::<[f32; 4]>(gpu, "contact_steps", counts.contact_records(), bodies);
+    parts("slots", vector, counts.slots);
+    parts("energies", vector, threads);
+    // Summed four by four.
+    parts("viscous_work", scalar, if choice.viscous { threads } else { 4 });
+    parts("rim_sums", RimSum::size(real), counts.rim);
+    parts("surface_sums", SurfaceRecord::size(real), surface);
+    parts("surface_states", vector, 2 * surface);
+    parts("contact_states", size_of::<u32>(), surface);
+    parts("contact_steps", vector, counts.contact_records());
     if choice.friction.is_some_and(|law| law.needs_area()) {
-        b.parts::<f32>(gpu, "inverse_areas", surface, bodies);
+        parts("inverse_areas", scalar, surface);
     }
-    b.parts::<[f32; 4]>(gpu, "probes", 4 * nodes.div_ceil(GROUP), bodies);
-    b.parts::<layout::RimState>(gpu, "rim_state", 1, bodies);
-    b.parts::<layout::RimState>(gpu, "rim_state_probe", 1, bodies);
+    parts("probes", vector, 4 * nodes.div_ceil(GROUP));
+    parts("rim_state", layout::RimState::size(real), 1);
+    parts("rim_state_probe", layout::RimState::size(real), 1);
     for (name, width) in [
         ("partials_rim", 2),
         ("partials_viscous", 1),
@@ -170,23 +175,24 @@ pub fn create(gpu: &Gpu, tables: &[Table], choice: &Choice, counts: &Counts, bod
         ("partials_probes", 4),
         ("partials_energies", 1),
     ] {
-        b.parts::<[f32; 4]>(gpu, name, width * PARTIALS, bodies);
+        parts(name, vector, width * PARTIALS);
     }
-    b.parts::<u32>(gpu, "failure", FLAGS, bodies);
-    b.parts::<u32>(gpu, "done", FLAGS, bodies);
-    b.parts::<layout::Step>(gpu, "plan", PLAN, bodies);
-    b.uniform(gpu, "members", MEMBERS * size_of::<layout::Member>());
+    parts("failure", size_of::<u32>(), FLAGS);
+    parts("done", size_of::<u32>(), FLAGS);
+    parts("plan", layout::Step::size(real), PLAN);
+    b.uniform(gpu, "members", MEMBERS * Member::size(real));
     b
 }
 
 /// Bytes of the largest of a body's arrays that its step binds.
-pub fn largest_part(counts: &Counts) -> u64 {
+pub fn largest_part(counts: &Counts, real: Real) -> u64 {
+    let vector = <[f64; 4]>::size(real);
     let parts = [
-        (PLAN, size_of::<layout::Step>()),
-        (counts.contact_records(), size_of::<[f32; 4]>()),
-        (counts.nodes, size_of::<[f32; 4]>()),
-        (counts.slots, size_of::<[f32; 4]>()),
-        (counts.surface, size_of::<SurfaceRecord>()),
+        (PLAN, layout::Step::size(real)),
+        (counts.contact_records(), vector),
+        (counts.nodes, vector),
+        (counts.slots, vector),
+        (counts.surface, SurfaceRecord::size(real)),
     ];
     parts.iter().map(|(count, size)| (part_stride(*count) * size) as u64).max().unwrap_or(1)
 }
@@ -200,38 +206,43 @@ pub fn fill(
     frame: [f64; 3],
     road: Option<&Road>,
 ) {
-    let mesh = &model.mesh;
+    let (mesh, real) = (&model.mesh, choice.precision.real());
     let write = |b: &Buffers, name: &str, bytes: &[u8]| b.get(name).write(gpu, bytes);
-    let (hi, lo) = split(&mesh.nodes, frame, &masses(model, choice.road));
-    write(b, "positions", bytemuck::cast_slice(&hi));
-    if choice.plus {
-        write(b, "positions_lo", bytemuck::cast_slice(&lo));
+    let (hi, lo) = split(&mesh.nodes, frame, &masses(model, choice.road), choice.precision);
+    write(b, "positions", &encode(real, &hi));
+    if choice.precision.has_pairs() {
+        write(b, "positions_lo", &encode(real, &lo));
     }
     if let (Some(road), true) = (road, b.has("inverse_areas")) {
-        let areas = inverse_areas(mesh, |n| mesh.nodes[n as usize], road);
-        write(b, "inverse_areas", bytemuck::cast_slice(&areas));
+        let areas = inverse_areas(mesh, |n| mesh.nodes[n as usize], road, real);
+        write(b, "inverse_areas", &areas);
     }
     write(b, "failure", bytemuck::cast_slice(&[u32::MAX; FLAGS]));
     // No step has this index: a submission that does nothing is noticed, the first one too.
     write(b, "done", bytemuck::cast_slice(&[u32::MAX; FLAGS]));
-    b.uniform(gpu, "step", PLAN * STEP_STRIDE);
-    b.uniform(gpu, "shift", 16);
+    b.uniform(gpu, "step", PLAN * step_stride(real));
+    b.uniform(gpu, "shift", layout::Shift::size(real));
 }
 
-/// Positions relative to the frame, as single-precision hi and lo parts, with the masses beside them.
-pub fn split(x: &[[f64; 3]], frame: [f64; 3], masses: &[f32]) -> (Vec<[f32; 4]>, Vec<[f32; 4]>) {
-    let pair = |(x, &mass): (&[f64; 3], &f32)| {
+/// Positions relative to the frame with the masses beside them; of pairs the hi and lo parts.
+pub fn split(
+    x: &[[f64; 3]],
+    frame: [f64; 3],
+    masses: &[f64],
+    precision: Precision,
+) -> (Vec<[f64; 4]>, Vec<[f64; 4]>) {
+    let high = |v: f64| if precision.has_pairs() { f64::from(v as f32) } else { v };
+    let pair = |(x, &mass): (&[f64; 3], &f64)| {
         let local: [f64; 3] = std::array::from_fn(|d| x[d] - frame[d]);
-        let [a, b, c, _] = vec4(local);
-        let low = vec4(local.map(|v| v - f64::from(v as f32)));
-        ([a, b, c, mass], low)
+        let [a, b, c] = local.map(high);
+        ([a, b, c, mass], vec4(local.map(|v| v - high(v))))
     };
     x.iter().zip(masses).map(pair).unzip()
 }
 
 /// Mass of each node [kg], negative if it can touch the road or belongs to the rim.
-pub fn masses(model: &Model, road: bool) -> Vec<f32> {
-    let mut masses: Vec<f32> = model.mass.iter().map(|&m| m as f32).collect();
+pub fn masses(model: &Model, road: bool) -> Vec<f64> {
+    let mut masses = model.mass.clone();
     let surface = if road { &model.mesh.surface[..] } else { &[] };
     surface.iter().chain(&model.mesh.rim).for_each(|&n| masses[n as usize] *= -1.0);
     masses

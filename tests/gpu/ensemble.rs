@@ -3,7 +3,7 @@
 use crate::rig::{Outcome, Plan, drive, on_device, safe_step, scene};
 use hexroll::Error;
 use hexroll::engine::Engine;
-use hexroll::gpu::{Gpu, GpuEngine, advance_together, ensemble};
+use hexroll::gpu::{Gpu, GpuEngine, Precision, advance_together, ensemble};
 use hexroll::model::Model;
 use hexroll::scene::{Friction, Scene};
 
@@ -84,7 +84,7 @@ pub fn as_alone(gpu: &Gpu) {
     bodies[1].plan.velocity.as_mut().unwrap().0[node] = [0.0, f64::NAN, 0.0];
     let found = together(engines(gpu, &bodies), &bodies);
     for (k, (body, found)) in bodies.iter().zip(found).enumerate() {
-        let mut engine = on_device(gpu, &body.model, &body.scene, false);
+        let mut engine = on_device(gpu, &body.model, &body.scene, Precision::F32);
         let alone = drive(&mut engine, &body.plan);
         assert!(engine.is_resident());
         match (k, alone, found) {
@@ -120,7 +120,7 @@ pub fn by_one_thread(gpu: &Gpu) {
     }
     advance_together(&mut engines, &steps).unwrap();
     for (k, (engine, body)) in engines.iter_mut().zip(&bodies).enumerate() {
-        let mut alone = on_device(gpu, &body.model, &body.scene, false);
+        let mut alone = on_device(gpu, &body.model, &body.scene, Precision::F32);
         start(&mut alone, &body.plan);
         alone.advance(&steps).unwrap();
         let (found, expected) = (engine.state().unwrap(), alone.state().unwrap());

@@ -3,7 +3,7 @@
 use crate::rig::{Plan, Who, drive, engine, note, on_device, safe_step, scene};
 use hexroll::Error;
 use hexroll::engine::Engine;
-use hexroll::gpu::{Gpu, GpuEngine};
+use hexroll::gpu::{Gpu, GpuEngine, Precision};
 use hexroll::model::Model;
 use hexroll::record::{Sample, Snapshot};
 use hexroll::run::{Observer, Progress, stability};
@@ -109,7 +109,7 @@ pub fn limits(gpu: &Gpu) {
     let mut small = gpu.clone();
     small.report.storage_binding = 40_000;
     let Err(Error::TooLarge { need, limit, fits, adapter, .. }) =
-        GpuEngine::new(&small, &model, &scene, false)
+        GpuEngine::new(&small, &model, &scene, Precision::F32)
     else {
         panic!("1,024 elements fit into 40 kB");
     };
@@ -117,8 +117,24 @@ pub fn limits(gpu: &Gpu) {
     assert!(fits > 0 && fits < 1024, "{fits} elements are said to fit");
     // A block of no more elements than that does fit.
     let scene = crate::rig::scene("spinning_block", &["body.mesh.elements=[8, 8, 4]"]);
-    assert!(256 <= fits && GpuEngine::new(&small, &Model::new(&scene).unwrap(), &scene, false).is_ok());
+    assert!(
+        256 <= fits && GpuEngine::new(&small, &Model::new(&scene).unwrap(), &scene, Precision::F32).is_ok()
+    );
     flat(gpu);
+}
+
+/// An adapter without double precision says so.
+pub fn no_doubles(gpu: &Gpu) {
+    let scene = scene("spinning_block", &[]);
+    let mut single = gpu.clone();
+    single.report.doubles = false;
+    match GpuEngine::new(&single, &Model::new(&scene).unwrap(), &scene, Precision::F64) {
+        Err(Error::Unsupported { what, instead }) => {
+            assert!(what.contains(&gpu.report.name) && instead.contains("f32"), "{what}: {instead}");
+        }
+        Err(other) => panic!("another error: {other}"),
+        Ok(_) => panic!("double precision on an adapter without it"),
+    }
 }
 
 /// A flat block is mostly surface: what a sample brings back is larger than any binding.
@@ -127,7 +143,7 @@ fn flat(gpu: &Gpu) {
     let scene = Scene { rim: None, ..scene };
     let mut small = gpu.clone();
     small.report.buffer = 250_000;
-    match GpuEngine::new(&small, &Model::new(&scene).unwrap(), &scene, false) {
+    match GpuEngine::new(&small, &Model::new(&scene).unwrap(), &scene, Precision::F32) {
         Err(Error::TooLarge { limit: 250_000, need, fits, .. }) => assert!(need > 250_000 && fits < 1600),
         Err(other) => panic!("another error: {other}"),
         Ok(_) => panic!("3,362 nodes come back through 250 kB"),
@@ -160,21 +176,22 @@ pub fn device_errors(gpu: &Gpu) {
     let model = Model::new(&scene).unwrap();
     let most = gpu.device.limits();
     let bindings = wgpu::Limits { max_storage_buffer_binding_size: 65_536, ..most.clone() };
-    refused("bindings", GpuEngine::new(&device_with(gpu, bindings), &model, &scene, false));
+    refused("bindings", GpuEngine::new(&device_with(gpu, bindings), &model, &scene, Precision::F32));
     let buffers =
         wgpu::Limits { max_storage_buffer_binding_size: 65_536, max_buffer_size: 65_536, ..most.clone() };
-    refused("buffers", GpuEngine::new(&device_with(gpu, buffers), &model, &scene, false));
+    refused("buffers", GpuEngine::new(&device_with(gpu, buffers), &model, &scene, Precision::F32));
     let few = wgpu::Limits { max_storage_buffers_per_shader_stage: 8, ..most.clone() };
     refused("storage buffers", {
         let gpu = device_with(gpu, few);
-        GpuEngine::new(&gpu, &model, &scene, false).and_then(|mut e| e.begin_stage(&Default::default()))
+        GpuEngine::new(&gpu, &model, &scene, Precision::F32)
+            .and_then(|mut e| e.begin_stage(&Default::default()))
     });
     lost(&device_with(gpu, most), &scene, &model);
 }
 
 /// A device that goes away between two windows.
 fn lost(gpu: &Gpu, scene: &Scene, model: &Model) {
-    let mut engine = on_device(gpu, model, scene, false);
+    let mut engine = on_device(gpu, model, scene, Precision::F32);
     let plan = Plan::of_first_stage(scene, model, safe_step(model), 2, 10);
     engine.begin_stage(&plan.setup).unwrap();
     engine.advance(&plan.windows[0]).unwrap();

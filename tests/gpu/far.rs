@@ -2,7 +2,7 @@
 
 use crate::rig::{Noise, Plan, Who, engine, note, on_device, outcome, relative, safe_step, scene};
 use hexroll::engine::{Engine, State};
-use hexroll::gpu::Gpu;
+use hexroll::gpu::{Gpu, Precision};
 use hexroll::model::Model;
 use hexroll::scene::Scene;
 
@@ -22,14 +22,14 @@ pub fn offset(gpu: &Gpu) {
     let mut noise = Noise::new(11);
     let u: Vec<[f64; 3]> = near.mesh.nodes.iter().map(|_| noise.vector(0.3e-3)).collect();
     let v: Vec<[f64; 3]> = near.mesh.nodes.iter().map(|_| noise.vector(1.0)).collect();
-    for plus in [false, true] {
+    for precision in [Precision::F32, Precision::F32Plus] {
         let forces = |scene: &Scene, model: &Model| {
             let x: Vec<[f64; 3]> =
                 model.mesh.nodes.iter().zip(&u).map(|(X, u)| std::array::from_fn(|d| X[d] + u[d])).collect();
-            on_device(gpu, model, scene, plus).force(&x, &v).unwrap()
+            on_device(gpu, model, scene, precision).force(&x, &v).unwrap()
         };
         let error = relative(&forces(&far_scene, &far), &forces(&near_scene, &near));
-        note(|| format!("plus {plus}: {error:.1e}"));
+        note(|| format!("{precision:?}: {error:.1e}"));
         assert!(error < 1e-6, "forces 1 km away are off by {error:.2e}");
     }
 }

@@ -201,6 +201,21 @@ pub fn every_composition(gpu: &Gpu) {
     }
 }
 
+/// In double precision: rounding of 1e-16 of a coordinate is 1e-15 of a strain of 0.1.
+const TOLERANCE_DOUBLE: f64 = 1e-12;
+
+/// Every element and law in double precision, with and without viscosity by turns.
+pub fn doubles(gpu: &Gpu) {
+    let case = case();
+    for (k, element) in ELEMENTS.into_iter().enumerate() {
+        for (j, law) in LAWS.into_iter().enumerate() {
+            let viscosity = ((k + j) % 2 == 0).then_some(400.0);
+            let body = Body { element, law, viscosity, ..case.scene.body.clone() };
+            check(gpu, &case, Who::Double, &body, TOLERANCE_DOUBLE);
+        }
+    }
+}
+
 /// Positions as pairs change what is loaded, once for elements with points and once for the one without. A body a
 /// metre away from the origin of the frame has the same forces; single precision has lost two digits there.
 pub fn pairs(gpu: &Gpu) {

@@ -12,6 +12,7 @@ mod ensemble;
 mod errors;
 mod far;
 mod forces;
+mod functions;
 mod laws;
 mod repeat;
 mod resident;
@@ -29,7 +30,7 @@ use std::sync::Arc;
 
 type Check = fn(&Gpu);
 
-const CHECKS: [(&str, Check); 25] = [
+const CHECKS: [(&str, Check); 26] = [
     ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
     ("forces_as_pairs_are_the_cpus", forces::pairs),
     ("forces_of_every_numbering_are_the_cpus", forces::every_numbering),
@@ -51,10 +52,21 @@ const CHECKS: [(&str, Check); 25] = [
     ("limits_of_the_adapter_are_measured", timing::limits),
     ("a_run_that_goes_wrong_says_where", errors::failures),
     ("what_does_not_fit_is_refused", errors::limits),
+    ("an_adapter_without_doubles_refuses_them", errors::no_doubles),
     ("what_wgpu_refuses_is_an_error", errors::device_errors),
     ("friction_laws_and_holds_are_the_cpus", laws::friction_and_holds),
     ("contact_step_by_step_adds_up", contact::steps_add_up),
     ("nothing_penetrates_and_what_sticks_stays", contact::exact),
+];
+
+/// Where the adapter has double precision.
+const DOUBLES: [(&str, Check); 6] = [
+    ("functions_of_doubles_are_the_hosts", functions::doubles),
+    ("forces_in_doubles_are_the_cpus", forces::doubles),
+    ("steps_in_doubles_are_the_cpus", steps::doubles),
+    ("a_pressed_wheel_in_doubles_is_the_cpus", runs::doubles),
+    ("a_free_wheel_in_doubles_turns_as_on_the_cpu", rim::doubles),
+    ("friction_laws_in_doubles_are_the_cpus", laws::doubles),
 ];
 
 fn main() {
@@ -67,14 +79,17 @@ fn main() {
         Err(error) => panic!("{error}"),
     };
     let missing = gpu.is_none();
+    let single = gpu.as_ref().is_none_or(|gpu: &Gpu| !gpu.report.doubles);
     let gpu = Arc::new(gpu);
-    let trial = |(name, check): &(&str, Check)| {
+    let trial = |ignored: bool, (name, check): &(&str, Check)| {
         let (gpu, check) = (Arc::clone(&gpu), *check);
         let run = move || -> Result<(), Failed> {
             check(gpu.as_ref().as_ref().ok_or("no adapter")?);
             Ok(())
         };
-        Trial::test(*name, run).with_ignored_flag(missing)
+        Trial::test(*name, run).with_ignored_flag(ignored)
     };
-    libtest_mimic::run(&arguments, CHECKS.iter().map(trial).collect()).exit();
+    let everywhere = CHECKS.iter().map(|check| trial(missing, check));
+    let trials = everywhere.chain(DOUBLES.iter().map(|check| trial(single, check))).collect();
+    libtest_mimic::run(&arguments, trials).exit();
 }

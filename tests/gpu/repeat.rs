@@ -2,7 +2,7 @@
 
 use crate::rig::{Outcome, Plan, drive, on_device, safe_step, scene};
 use hexroll::engine::Engine;
-use hexroll::gpu::Gpu;
+use hexroll::gpu::{Gpu, Precision};
 use hexroll::model::Model;
 
 /// Two reruns, each also cut into submissions of one step and folded into dispatches of two groups a dimension, have
@@ -18,9 +18,10 @@ pub fn bit_identical(gpu: &Gpu) {
     narrow.report.workgroups = 2;
     let plan = Plan::of_first_stage(&scene, &model, safe_step(&model), 4, 75);
     let plan = plan.starting(&model, |x| [1.0, 0.2 * x[0], -1.0 + x[1]], [0.0; 6]);
-    for plus in [false, true] {
+    let all = Precision::ALL.into_iter().filter(|p| *p != Precision::F64 || gpu.report.doubles);
+    for precision in all {
         let run = |gpu: &Gpu, submits: Option<usize>| {
-            let mut engine = on_device(gpu, &model, &scene, plus);
+            let mut engine = on_device(gpu, &model, &scene, precision);
             engine.set_steps_per_submit(submits);
             drive(&mut engine, &plan).unwrap()
         };
@@ -34,7 +35,7 @@ pub fn bit_identical(gpu: &Gpu) {
         ] {
             same(name, &first, &again);
         }
-        undisturbed(gpu, &scene, &model, &plan, plus, &first);
+        undisturbed(gpu, &scene, &model, &plan, precision, &first);
     }
 }
 
@@ -51,10 +52,10 @@ fn undisturbed(
     scene: &hexroll::scene::Scene,
     model: &Model,
     plan: &Plan,
-    plus: bool,
+    precision: Precision,
     first: &Outcome,
 ) {
-    let mut engine = on_device(gpu, model, scene, plus);
+    let mut engine = on_device(gpu, model, scene, precision);
     let long = Plan { windows: vec![plan.windows.concat()], ..plan.clone() };
     let spoilt = vec![[f64::NAN; 3]; model.node_count()];
     engine.force(&spoilt, &spoilt).unwrap();

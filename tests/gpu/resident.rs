@@ -2,7 +2,7 @@
 
 use crate::rig::{Plan, Who, drive, errors, on_device, outcome, safe_step, scene, state_errors, within};
 use hexroll::engine::Engine;
-use hexroll::gpu::Gpu;
+use hexroll::gpu::{Gpu, Precision};
 use hexroll::model::Model;
 
 /// Everything a resident stage can have (gravity, damping, viscosity, friction, a rim that turns), against the f64
@@ -24,7 +24,7 @@ pub fn agrees(gpu: &Gpu) {
         let plan = plan.starting(&model, |x| [1.0 + shear * x[1], 0.2 * x[0], -1.0 + x[1]], [0.0; 6]);
         let exact = outcome(gpu, Who::Cpu64, &model, &scene, &plan);
         let [resident, passes] = [true, false].map(|allowed| {
-            let mut engine = on_device(gpu, &model, &scene, false);
+            let mut engine = on_device(gpu, &model, &scene, Precision::F32);
             engine.set_resident(allowed).unwrap();
             engine.begin_stage(&plan.setup).unwrap();
             assert_eq!(engine.is_resident(), allowed, "{stem}");

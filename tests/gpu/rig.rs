@@ -2,7 +2,7 @@
 
 use hexroll::cpu::CpuEngine;
 use hexroll::engine::{Engine, StageSetup, State, Step, SurfaceSum, Window, Works};
-use hexroll::gpu::{Gpu, GpuEngine};
+use hexroll::gpu::{Gpu, GpuEngine, Precision};
 use hexroll::model::Model;
 use hexroll::physics::rim::Coordinates;
 use hexroll::run::{Motion, stability};
@@ -16,13 +16,14 @@ pub fn scene(stem: &str, changes: &[&str]) -> Scene {
     Scene::load(&file, &changes).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Who computes. `Gpu` keeps plain f32 positions, `Plus` hi + lo pairs.
+/// Who computes. `Gpu` keeps plain f32 positions, `Plus` hi + lo pairs; `Double` is f64 on the device.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Who {
     Cpu64,
     Cpu32,
     Gpu,
     Plus,
+    Double,
 }
 
 /// An engine, which says itself that it is the one asked for.
@@ -30,8 +31,9 @@ pub fn engine(gpu: &Gpu, who: Who, model: &Model, scene: &Scene) -> Box<dyn Engi
     let (engine, expected): (Box<dyn Engine>, _) = match who {
         Who::Cpu64 => (Box::new(CpuEngine::<f64>::new(model, scene, 1)), ["cpu", "f64"]),
         Who::Cpu32 => (Box::new(CpuEngine::<f32>::new(model, scene, 1)), ["cpu", "f32"]),
-        Who::Gpu => (Box::new(on_device(gpu, model, scene, false)), ["gpu", "f32"]),
-        Who::Plus => (Box::new(on_device(gpu, model, scene, true)), ["gpu", "f32+"]),
+        Who::Gpu => (Box::new(on_device(gpu, model, scene, Precision::F32)), ["gpu", "f32"]),
+        Who::Plus => (Box::new(on_device(gpu, model, scene, Precision::F32Plus)), ["gpu", "f32+"]),
+        Who::Double => (Box::new(on_device(gpu, model, scene, Precision::F64)), ["gpu", "f64"]),
     };
     let info = engine.info();
     assert_eq!([info.engine.as_str(), info.precision.as_str()], expected);
@@ -39,8 +41,8 @@ pub fn engine(gpu: &Gpu, who: Who, model: &Model, scene: &Scene) -> Box<dyn Engi
 }
 
 /// With small meshes in one work group, as on real adapters.
-pub fn on_device(gpu: &Gpu, model: &Model, scene: &Scene, plus: bool) -> GpuEngine {
-    let mut engine = GpuEngine::new(gpu, model, scene, plus).unwrap_or_else(|e| panic!("{e}"));
+pub fn on_device(gpu: &Gpu, model: &Model, scene: &Scene, precision: Precision) -> GpuEngine {
+    let mut engine = GpuEngine::new(gpu, model, scene, precision).unwrap_or_else(|e| panic!("{e}"));
     engine.set_resident(true).unwrap();
     engine
 }

@@ -54,6 +54,22 @@ pub fn pressed_by_a_force(gpu: &Gpu) {
 
 /// Free to roll: pushed along by 5 N, pressed by 150 N, torque-free spin, starting faster than it rolls.
 pub fn free_to_spin(gpu: &Gpu) {
+    let (scene, model, plan) = rolling_free();
+    check(gpu, &scene, &model, &plan, &[0, 2, 5], [1e-4, 1e-3]);
+}
+
+/// The same in double precision.
+pub fn doubles(gpu: &Gpu) {
+    let (scene, model, plan) = rolling_free();
+    let [exact, got] = [Who::Cpu64, Who::Double].map(|who| outcome(gpu, who, &model, &scene, &plan));
+    for component in [0, 2, 5] {
+        let found = errors(&got, &exact, component);
+        note(|| format!("Double, component {component}: {:.1e} {:.1e}", found[0], found[1]));
+        assert!(found[0] < 1e-12 && found[1] < 1e-12, "Double, component {component}: {found:?}");
+    }
+}
+
+fn rolling_free() -> (Scene, Model, Plan) {
     let scene = scene("lat100_straight_viscous", &["body.mesh.elements=[20, 2, 3]"]);
     let model = Model::new(&scene).unwrap();
     let mut plan = Plan::of_first_stage(&scene, &model, safe_step(&model), 20, 100);
@@ -68,5 +84,5 @@ pub fn free_to_spin(gpu: &Gpu) {
         [speed + spin * r[2], 0.0, -spin * r[0]]
     };
     let plan = plan.starting(&model, field, [speed, 0.0, 0.0, 0.0, 0.0, spin]);
-    check(gpu, &scene, &model, &plan, &[0, 2, 5], [1e-4, 1e-3]);
+    (scene, model, plan)
 }

@@ -85,6 +85,23 @@ pub fn pressed_wheel(gpu: &Gpu) {
     assert!(found[0].1 > 3.0 * WHEEL.pairs[0], "a shear modulus off by 0.1 % is not noticed: {found:?}");
 }
 
+/// A thousand steps in double precision, of the pressed wheel.
+pub fn doubles(gpu: &Gpu) {
+    let scene = scene("lat100_static_height", &[]);
+    let model = Model::new(&scene).unwrap();
+    let plan = Plan::of_first_stage(&scene, &model, safe_step(&model), 10, 100);
+    let [exact, got] = [Who::Cpu64, Who::Double].map(|who| outcome(gpu, who, &model, &scene, &plan));
+    // A wheel at rest but for its tread: speeds are small, and there is nothing else to measure their errors by.
+    let fields = [("contact steps", 0.0), ("surface v", 1e-10)];
+    within("Double", &errors(&plan, 0.04, &got, &exact), &fields, 1e-12);
+    within("Double", &state_errors(&model, &got, &exact), &[("velocity", 3e-11)], 1e-12);
+    let [balance, stored, largest] = balances(0.0, &got.windows);
+    let [_, stored_exact, _] = balances(0.0, &exact.windows);
+    let [balance, stored] = [balance, stored - stored_exact].map(|e| e.abs() / largest);
+    note(|| format!("Double: balance {balance:.1e}, stored {stored:.1e}"));
+    assert!(balance < 1e-13 && stored < 1e-12, "balance {balance:.2e}, stored {stored:.2e} from the CPU's");
+}
+
 /// Runs the plan on every engine, and gives back what the CPU makes of it in f64.
 fn compare(gpu: &Gpu, scene: &Scene, model: &Model, plan: &Plan, bounds: &Bounds) -> Outcome {
     let exact = outcome(gpu, Who::Cpu64, model, scene, plan);

@@ -87,6 +87,22 @@ pub fn everything(gpu: &Gpu) {
     mutants(gpu, &[&long]);
 }
 
+/// Bound of every field in double precision: ten times what is measured, most of which are speeds in contact (1e-13).
+const DOUBLE: f64 = 1e-12;
+
+/// The same in double precision: the CPU's numbers to rounding, and every node in contact in the same steps.
+pub fn doubles(gpu: &Gpu) {
+    for law in ["neo-hookean", "mooney-rivlin-eq4"] {
+        let change = format!("body.material.law=\"{law}\"");
+        let (scene, model) = wheel(&[&change]);
+        let plan = plan(&model, &[&[5e-6], &[6e-6, 4e-6], &[5e-6; 300]]);
+        let [exact, got] = [Who::Cpu64, Who::Double].map(|who| outcome(gpu, who, &model, &scene, &plan));
+        assert!(sliding(&exact) > 0 && sticking(&exact) > 0, "no node slides, or none sticks");
+        within(law, &errors(&plan, 0.039, &got, &exact), &[("contact steps", 0.0)], DOUBLE);
+        within(law, &state_errors(&model, &got, &exact), &[], DOUBLE);
+    }
+}
+
 fn sliding(outcome: &Outcome) -> usize {
     outcome.windows.iter().flat_map(|w| &w.surface).filter(|s| s.touching > s.sticking).count()
 }

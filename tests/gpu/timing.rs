@@ -2,8 +2,8 @@
 
 use crate::rig::{Plan, on_device, safe_step, scene};
 use hexroll::engine::Engine;
-use hexroll::gpu::Gpu;
 use hexroll::gpu::limits::Limits;
+use hexroll::gpu::{Gpu, Precision};
 use hexroll::model::Model;
 
 /// Timed steps are the steps: the same state and window, to the bit; every pass of the step is listed with its bytes,
@@ -18,7 +18,7 @@ pub fn passes(gpu: &Gpu) {
         [(None, true, &["resident"][..]), (None, false, each), (Some(0.2), true, with_rim)]
     {
         plan.setup.free[2] = free;
-        let [mut plain, mut timed] = [0, 1].map(|_| on_device(gpu, &model, &scene, false));
+        let [mut plain, mut timed] = [0, 1].map(|_| on_device(gpu, &model, &scene, Precision::F32));
         for engine in [&mut plain, &mut timed] {
             engine.begin_stage(&plan.setup).unwrap();
             engine.set_resident(resident).unwrap();

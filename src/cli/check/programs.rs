@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::engine::StageSetup;
 use crate::gpu::chains::{self, Chains};
 use crate::gpu::compose::{Choice, Kernel, RimKind};
-use crate::gpu::{Shape, order};
+use crate::gpu::{Precision, Shape, order};
 use crate::model::Model;
 use crate::scene::{Drive, Scene};
 use crate::{Error, Result};
@@ -105,7 +105,7 @@ fn choice(scene: &Scene, chains: &Chains) -> Choice {
         gravity: scene.gravity != [0.0; 3],
         damping: false,
         rim: if scene.rim.is_some() { RimKind::Prescribed } else { RimKind::None },
-        plus: false,
+        precision: Precision::F32,
         shared_classes: chains.shared_classes,
         lattice: chains.lattice.is_some(),
     }

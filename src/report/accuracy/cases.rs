@@ -51,13 +51,15 @@ pub enum Machine {
     Cpu32,
     Gpu32,
     GpuPairs,
+    Gpu64,
 }
 
 impl Machine {
-    pub const ALL: [Machine; 4] = [Machine::Cpu64, Machine::Cpu32, Machine::Gpu32, Machine::GpuPairs];
+    pub const ALL: [Machine; 5] =
+        [Machine::Cpu64, Machine::Cpu32, Machine::Gpu32, Machine::GpuPairs, Machine::Gpu64];
 
     pub fn on_gpu(self) -> bool {
-        matches!(self, Machine::Gpu32 | Machine::GpuPairs)
+        matches!(self, Machine::Gpu32 | Machine::GpuPairs | Machine::Gpu64)
     }
 
     /// The engine with this name.
@@ -71,6 +73,7 @@ impl Machine {
             Machine::Cpu32 => "cpu f32",
             Machine::Gpu32 => "gpu f32",
             Machine::GpuPairs => "gpu f32+",
+            Machine::Gpu64 => "gpu f64",
         }
     }
 }

@@ -37,7 +37,7 @@ pub fn picture(measured: &Measured) -> Result<RgbaImage> {
     let fonts = Fonts::new()?;
     let blank = RgbaImage::from_pixel(size[0], size[1], Rgba([255; 4]));
     let mut canvas = Canvas::new(blank, &fonts, 1.0)?;
-    legend(&mut canvas);
+    legend(&mut canvas, rows);
     for (k, problem) in shown.into_iter().enumerate() {
         let corner = [(k % columns) as f64 * PANEL[0], HEAD + (k / columns) as f64 * PANEL[1]];
         let own: Vec<&Row> = rows.iter().filter(|r| r.problem == problem && r.error > 0.0).collect();
@@ -48,7 +48,7 @@ pub fn picture(measured: &Measured) -> Result<RgbaImage> {
     canvas.finish()
 }
 
-fn legend(canvas: &mut Canvas) {
+fn legend(canvas: &mut Canvas, rows: &[Row]) {
     canvas.text("Wall time against error", [24.0, 28.0], Anchor::Left, Weight::Medium, 20.0, INK, 0.0);
     let mut x = 24.0;
     let names = [
@@ -66,8 +66,10 @@ fn legend(canvas: &mut Canvas) {
         ("f32", Machine::Cpu32),
         ("GPU f32", Machine::Gpu32),
         ("GPU f32+", Machine::GpuPairs),
+        ("GPU f64", Machine::Gpu64),
     ];
-    for (name, machine) in machines {
+    for (name, machine) in machines.into_iter().filter(|(_, m)| rows.iter().any(|r| r.setting.machine == *m))
+    {
         mark(canvas, [x + 6.0, 58.0], machine, INK);
         canvas.text(name, [x + 18.0, 58.0], Anchor::Left, Weight::Regular, 14.0, INK, 0.0);
         x += 34.0 + 8.0 * name.len() as f64;
@@ -89,7 +91,7 @@ fn legend(canvas: &mut Canvas) {
     );
 }
 
-/// f64 discs, f32 rings, GPU squares (pairs: open ones).
+/// f64 discs, f32 rings, GPU squares (pairs: open ones; f64: on a corner).
 fn mark(canvas: &mut Canvas, at: [f64; 2], machine: Machine, colour: [u8; 3]) {
     let square = |r: f64| [[-r, -r], [r, -r], [r, r], [-r, r]].map(|[x, y]: [f64; 2]| [at[0] + x, at[1] + y]);
     match machine {
@@ -97,6 +99,10 @@ fn mark(canvas: &mut Canvas, at: [f64; 2], machine: Machine, colour: [u8; 3]) {
         Machine::Cpu32 => canvas.disc(at, 4.5, [255; 3], Some((2.0, colour))),
         Machine::Gpu32 => canvas.polygon(&square(5.0), colour, None),
         Machine::GpuPairs => canvas.polygon(&square(4.5), [255; 3], Some((2.0, colour))),
+        Machine::Gpu64 => {
+            let turned = [[0.0, -7.0], [7.0, 0.0], [0.0, 7.0], [-7.0, 0.0]];
+            canvas.polygon(&turned.map(|[x, y]: [f64; 2]| [at[0] + x, at[1] + y]), colour, None)
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use super::cases::{MEAN, Machine, Problem, Setting, element_name, scene};
 use super::reference::Reference;
 use crate::cpu::{self, Precision};
 use crate::engine::{Engine, Step};
-use crate::gpu::{Gpu, GpuEngine};
+use crate::gpu::{self, Gpu, GpuEngine};
 use crate::model::Model;
 use crate::record::{Sample, Snapshot};
 use crate::report::bench::{block, hold};
@@ -120,7 +120,9 @@ pub fn measure(matrix: &Matrix, mut done: impl FnMut(&dyn std::fmt::Display)) ->
             done(&format_args!("{:9} reference x{mesh}: {value:.6e} in {seconds:.0} s", problem.name()));
             Ok(run)
         })?;
-        for setting in matrix.settings() {
+        let has =
+            |s: &Setting| s.machine != Machine::Gpu64 || gpu.as_ref().is_some_and(|gpu| gpu.report.doubles);
+        for setting in matrix.settings().into_iter().filter(has) {
             let row = known.row(&setting, &reference)?;
             done(&row);
             measured.rows.push(row);
@@ -224,15 +226,16 @@ pub(super) fn engine<'a>(
     threads: usize,
     gpu: Option<&Gpu>,
 ) -> Result<Box<dyn Engine + 'a>> {
-    let on_gpu = |plus| -> Result<Box<dyn Engine + 'a>> {
+    let on_gpu = |precision| -> Result<Box<dyn Engine + 'a>> {
         let gpu = gpu.ok_or_else(|| Error::NoAdapter { detail: "none was opened".into() })?;
-        Ok(Box::new(GpuEngine::new(gpu, model, scene, plus)?))
+        Ok(Box::new(GpuEngine::new(gpu, model, scene, precision)?))
     };
     match setting.machine {
         Machine::Cpu64 => Ok(cpu::engine(model, scene, Precision::F64, threads)),
         Machine::Cpu32 => Ok(cpu::engine(model, scene, Precision::F32, threads)),
-        Machine::Gpu32 => on_gpu(false),
-        Machine::GpuPairs => on_gpu(true),
+        Machine::Gpu32 => on_gpu(gpu::Precision::F32),
+        Machine::GpuPairs => on_gpu(gpu::Precision::F32Plus),
+        Machine::Gpu64 => on_gpu(gpu::Precision::F64),
     }
 }
 

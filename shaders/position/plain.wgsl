@@ -1,9 +1,9 @@
 // Positions in single precision, relative to a frame that follows the axle.
 
-@group(0) @binding(10) var<storage, read> positions_in: array<vec4f>;
+@group(0) @binding(10) var<storage, read> positions_in: array<vec4r>;
 
 // Corners of a face.
-struct Face { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
+struct Face { a: vec3r, b: vec3r, c: vec3r, d: vec3r }
 
 fn load_face(nodes: vec4u) -> Face {
     return Face(
@@ -17,6 +17,6 @@ fn half_edges_of(low: Face, high: Face) -> Columns {
 // Differences to corner 0.
 fn offsets_of(low: Face, high: Face) -> Corners {
     return Corners(
-        vec3f(0.0), low.b - low.a, low.c - low.a, low.d - low.a,
+        vec3r(0.0), low.b - low.a, low.c - low.a, low.d - low.a,
         high.a - low.a, high.b - low.a, high.c - low.a, high.d - low.a);
 }

@@ -1,10 +1,10 @@
 // Positions as unevaluated sums hi + lo of two single-precision numbers: differences are taken hi - hi + lo - lo.
 
-@group(0) @binding(10) var<storage, read> positions_in: array<vec4f>;
-@group(0) @binding(12) var<storage, read> positions_lo_in: array<vec4f>;
+@group(0) @binding(10) var<storage, read> positions_in: array<vec4r>;
+@group(0) @binding(12) var<storage, read> positions_lo_in: array<vec4r>;
 
 // Corners of a face, in single precision.
-struct Part { a: vec3f, b: vec3f, c: vec3f, d: vec3f }
+struct Part { a: vec3r, b: vec3r, c: vec3r, d: vec3r }
 
 struct Face { hi: Part, lo: Part }
 
@@ -37,7 +37,7 @@ fn offsets_of(low: Face, high: Face) -> Corners {
     let x = corners_of(low.hi, high.hi);
     let y = corners_of(low.lo, high.lo);
     return Corners(
-        vec3f(0.0), (x.a1 - x.a0) + (y.a1 - y.a0), (x.a2 - x.a0) + (y.a2 - y.a0), (x.a3 - x.a0) + (y.a3 - y.a0),
+        vec3r(0.0), (x.a1 - x.a0) + (y.a1 - y.a0), (x.a2 - x.a0) + (y.a2 - y.a0), (x.a3 - x.a0) + (y.a3 - y.a0),
         (x.a4 - x.a0) + (y.a4 - y.a0), (x.a5 - x.a0) + (y.a5 - y.a0), (x.a6 - x.a0) + (y.a6 - y.a0),
         (x.a7 - x.a0) + (y.a7 - y.a0));
 }

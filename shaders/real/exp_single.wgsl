@@ -1,0 +1,3 @@
+fn exponential(x: real) -> real {
+    return exp(x);
+}

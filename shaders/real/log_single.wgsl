@@ -1,0 +1,3 @@
+fn logarithm(x: real) -> real {
+    return log(x);
+}

@@ -1,0 +1,107 @@
+//! What a model becomes for the CPU engine: tables by place, line and lane.
+
+use super::energies::Stored;
+use super::layout::Layout;
+use super::nodes::{NO_SURFACE, NodePass, Nodes};
+use super::rim::RimState;
+use super::state::{Aligned, Field};
+use crate::model::mesh::Mesh;
+use crate::model::{Model, areas};
+use crate::physics::lanes::Level;
+use crate::physics::scalar::Real;
+use crate::scene::Road;
+
+/// Data of the node pass by place.
+pub fn nodes<T: NodePass>(model: &Model, layout: &Layout, surface: &[u32], level: Level) -> Nodes<T> {
+    let place = |n: u32| layout.place[n as usize] as usize;
+    let (mut mass, mut inverse_mass) = (Aligned::zeros(layout.places), Aligned::zeros(layout.places));
+    for (n, &m) in model.mass.iter().enumerate() {
+        mass.slice_mut()[place(n as u32)] = T::from_f64(m);
+        inverse_mass.slice_mut()[place(n as u32)] = T::from_f64(1.0 / m);
+    }
+    let mut surface_of = vec![NO_SURFACE; layout.places];
+    for (k, &n) in surface.iter().enumerate() {
+        surface_of[place(n)] = k as u32;
+    }
+    let mut rim_arms = Field::zeros(layout.places);
+    for &n in &model.mesh.rim {
+        rim_arms.set(place(n), sub64(model.mesh.nodes[n as usize], model.mesh.axle));
+    }
+    Nodes {
+        lines: layout.lines.clone(),
+        mass,
+        inverse_mass,
+        surface_of,
+        rim_arms,
+        inverse_area: Vec::new(),
+        level,
+    }
+}
+
+pub fn stored(model: &Model, layout: &Layout, level: Level) -> Stored {
+    Stored {
+        element: model.element,
+        law: model.law,
+        level,
+        classes: model.classes.clone(),
+        class_of: model.class_of.clone(),
+        hexes: model.mesh.hexes.iter().map(|hex| hex.map(|n| layout.place[n as usize])).collect(),
+    }
+}
+
+/// Reference geometry by lanes, number by number.
+pub fn shape_table<T: Real>(model: &Model, layout: &Layout, width: usize) -> Aligned<T> {
+    let length = model.classes[0].numbers().len();
+    let mut table = Aligned::zeros(layout.shapes.len() * length * width);
+    for (lanes, part) in layout.shapes.iter().zip(table.slice_mut().chunks_exact_mut(length * width)) {
+        for (lane, class) in lanes[..width].iter().enumerate() {
+            for (i, number) in model.classes[*class as usize].numbers().iter().enumerate() {
+                part[i * width + lane] = T::from_f64(*number);
+            }
+        }
+    }
+    table
+}
+
+/// Slots of every place, in the order in which they are summed.
+pub fn slots_by_place(layout: &Layout) -> (Vec<u32>, Vec<u32>) {
+    let mut of_place = vec![&[][..]; layout.places];
+    let mut offset = vec![0; layout.places];
+    for line in &layout.lines {
+        for i in 0..line.nodes.len() {
+            of_place[line.start + i] = &line.slots;
+            offset[line.start + i] = i;
+        }
+    }
+    let (mut start, mut at) = (vec![0], Vec::new());
+    for (slots, offset) in of_place.iter().zip(&offset) {
+        at.extend(slots.iter().map(|slot| (slot + offset) as u32));
+        start.push(at.len() as u32);
+    }
+    (start, at)
+}
+
+pub fn rim_state(model: &Model) -> RimState {
+    let mass = |n: &u32| model.mass[*n as usize];
+    let axle = model.mesh.axle;
+    let [x, y, z] = axle;
+    let rim = &model.mesh.rim;
+    let arm2 = |n: &u32| {
+        let arm = sub64(model.mesh.nodes[*n as usize], axle);
+        arm[0] * arm[0] + arm[2] * arm[2]
+    };
+    RimState {
+        q: [x, y, z, 0.0, 0.0, 0.0],
+        rate: [0.0; 6],
+        node_mass: rim.iter().map(mass).sum(),
+        node_inertia: rim.iter().map(|n| mass(n) * arm2(n)).sum(),
+    }
+}
+
+pub fn inverse_areas<T: Real>(mesh: &Mesh, x: impl Fn(u32) -> [f64; 3], road: &Road) -> Vec<T> {
+    areas::inverse_areas(mesh, x, road).into_iter().map(T::from_f64).collect()
+}
+
+pub fn sub64(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|d| a[d] - b[d])
+}
