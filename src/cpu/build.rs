@@ -38,14 +38,14 @@ pub fn nodes<T: NodePass>(model: &Model, layout: &Layout, surface: &[u32], level
     }
 }
 
-pub fn stored(model: &Model, layout: &Layout, level: Level) -> Stored {
+pub fn stored(model: &Model, layout: &Layout, level: Level, width: usize) -> Stored {
     Stored {
         element: model.element,
         law: model.law,
         level,
         classes: model.classes.clone(),
-        class_of: model.class_of.clone(),
-        hexes: model.mesh.hexes.iter().map(|hex| hex.map(|n| layout.place[n as usize])).collect(),
+        shapes: layout.shapes.clone(),
+        width,
     }
 }
 
@@ -63,22 +63,15 @@ pub fn shape_table<T: Real>(model: &Model, layout: &Layout, width: usize) -> Ali
     table
 }
 
-/// Slots of every place, in the order in which they are summed.
-pub fn slots_by_place(layout: &Layout) -> (Vec<u32>, Vec<u32>) {
-    let mut of_place = vec![&[][..]; layout.places];
-    let mut offset = vec![0; layout.places];
-    for line in &layout.lines {
-        for i in 0..line.nodes.len() {
-            of_place[line.start + i] = &line.slots;
-            offset[line.start + i] = i;
+/// Line and index in it of every node of the rim, in the mesh's order.
+pub fn rim_nodes(model: &Model, layout: &Layout) -> Vec<(usize, usize)> {
+    let mut at = vec![(0, 0); model.node_count()];
+    for (number, line) in layout.lines.iter().enumerate() {
+        for (i, &n) in line.nodes.iter().enumerate() {
+            at[n as usize] = (number, i);
         }
     }
-    let (mut start, mut at) = (vec![0], Vec::new());
-    for (slots, offset) in of_place.iter().zip(&offset) {
-        at.extend(slots.iter().map(|slot| (slot + offset) as u32));
-        start.push(at.len() as u32);
-    }
-    (start, at)
+    model.mesh.rim.iter().map(|&n| at[n as usize]).collect()
 }
 
 pub fn rim_state(model: &Model) -> RimState {

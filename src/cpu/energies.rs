@@ -5,7 +5,7 @@ use super::family::{LawFamily, MooneyRivlinEq4Law, MooneyRivlinLaw, NeoHookeanLa
 use super::layout::Item;
 use crate::engine::EnergyTotals;
 use crate::physics::element::{Class, Corners, Energy, Formulation, Full, Q1p0, SameShape, UniformGradient};
-use crate::physics::lanes::{Array, Lanes, Level};
+use crate::physics::lanes::{Array, Lanes, Level, WIDEST};
 #[cfg(target_arch = "x86_64")]
 use crate::physics::lanes::{F64x4, F64x8};
 use crate::physics::material::Law;
@@ -18,9 +18,9 @@ pub struct Stored {
     pub law: scene::Law,
     pub level: Level,
     pub classes: Vec<Class<f64>>,
-    pub class_of: Vec<u32>,
-    /// Places of the corners.
-    pub hexes: Vec<[u32; 8]>,
+    /// Classes by lane of the table of shapes, whose batches have so many lanes.
+    pub shapes: Vec<[u32; WIDEST]>,
+    pub width: usize,
 }
 
 impl Stored {
@@ -60,13 +60,14 @@ impl Stored {
         let mut totals = EnergyTotals::default();
         let mut corners = [[[0.0; W]; 3]; 8];
         for item in items {
-            let mut rest = item.elements();
-            while let Some(&first) = rest.first() {
-                let class = self.class_of[first as usize];
-                let alike = |e: &&u32| self.class_of[**e as usize] == class;
-                let count = rest.iter().take(W).take_while(alike).count();
+            let places = item.corners();
+            let class_of = |k: usize| self.shapes[item.shapes()[k / self.width] as usize][k % self.width];
+            let mut at = 0;
+            while at < places.len() {
+                let class = class_of(at);
+                let count = (at..places.len()).take(W).take_while(|k| class_of(*k) == class).count();
                 for lane in 0..W {
-                    let hex = &self.hexes[rest[lane.min(count - 1)] as usize];
+                    let hex = &places[at + lane.min(count - 1)];
                     for (corner, &n) in corners.iter_mut().zip(hex) {
                         for d in 0..3 {
                             corner[d][lane] = x[d][n as usize].to_f64();
@@ -79,7 +80,7 @@ impl Stored {
                     totals.hourglass += energy.hourglass[lane];
                     totals.min_jacobian = totals.min_jacobian.min(energy.min_j[lane]);
                 }
-                rest = &rest[count..];
+                at += count;
             }
         }
         totals

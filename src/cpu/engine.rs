@@ -1,7 +1,7 @@
-use super::build::{inverse_areas, nodes, rim_state, shape_table, slots_by_place, stored, sub64};
+use super::build::{inverse_areas, nodes, rim_nodes, rim_state, shape_table, stored, sub64};
 use super::elements::{self, Build, Composable, Elements, Kernel};
 use super::energies::Stored;
-use super::layout::Layout;
+use super::layout::{Item, Layout};
 use super::nodes::{Books, Conditions, LineContact, LineSums, NodePass, Nodes};
 use super::reduce::total;
 use super::rim::RimState;
@@ -38,10 +38,8 @@ pub struct CpuEngine<T> {
     pub(super) stored: Stored,
     /// Whether forces depend on velocities.
     pub(super) viscous: bool,
-    /// Where the forces of a node are, by place: `slot_start[p]..slot_start[p + 1]` of `slot_at`.
-    pub(super) slot_start: Vec<u32>,
-    pub(super) slot_at: Vec<u32>,
-    pub(super) rim_nodes: Vec<usize>,
+    /// Line of each rim node, and its index in it.
+    pub(super) rim_nodes: Vec<(usize, usize)>,
     pub(super) shares: Vec<Share>,
     pub(super) road: Option<Road>,
     pub(super) friction: Option<AnyFriction<T>>,
@@ -96,7 +94,6 @@ where
         let surface_nodes = if scene.road.is_some() { mesh.surface.clone() } else { Vec::new() };
         let grain = frame::grain(mesh);
         let frame = frame::shift(grain, mesh.axle, [0.0; 3], scene.road.as_ref());
-        let (slot_start, slot_at) = slots_by_place(&layout);
         let shares = shares(&layout, threads);
         let mut engine = CpuEngine {
             kernel: elements::compose(model, level),
@@ -112,17 +109,15 @@ where
                 },
                 ..nodes(model, &layout, &surface_nodes, level)
             },
-            stored: stored(model, &layout, level),
+            stored: stored(model, &layout, level, width),
             viscous: model.viscosity.is_some(),
-            rim_nodes: mesh.rim.iter().map(|&n| layout.place[n as usize] as usize).collect(),
+            rim_nodes: rim_nodes(model, &layout),
             rim: rim_state(model),
             x: Field::zeros(layout.places),
             v: Field::zeros(layout.places),
             f: Field::zeros(layout.slots),
             elements: Elements { shapes: shape_table(model, &layout, width), items: layout.items },
             place: layout.place,
-            slot_start,
-            slot_at,
             shares,
             road: scene.road,
             friction: scene.friction.as_ref().map(AnyFriction::new),
@@ -220,7 +215,12 @@ where
     fn failure(&self, element: usize, time: f64) -> Error {
         let finite = |n: &u32| self.x.get(*n as usize).iter().all(|c| c.is_finite());
         let step = self.steps;
-        match self.stored.hexes[element].iter().all(finite) {
+        let corners = |item: &Item| {
+            let k = item.elements().iter().position(|e| *e as usize == element)?;
+            Some(item.corners()[k])
+        };
+        let corners = self.elements.items.iter().find_map(corners).expect("every element is in an item");
+        match corners.iter().all(finite) {
             true => Error::Inverted { step, time, element },
             false => Error::NotFinite { step, time, element },
         }
@@ -381,9 +381,13 @@ where
             }
             work(0);
         });
-        // SAFETY: the threads have ended.
-        let sum = |p: &u32| unsafe { self.gather(*p as usize, &view) }.map(Real::to_f64);
-        let forces = self.place.iter().map(sum).collect();
+        let mut forces = vec![[0.0; 3]; self.place.len()];
+        for line in &self.nodes.lines {
+            for (i, &n) in line.nodes.iter().enumerate() {
+                // SAFETY: the threads have ended.
+                forces[n as usize] = unsafe { Self::gather(line, i, &view) }.map(Real::to_f64);
+            }
+        }
         self.clear_loose();
         Ok(forces)
     }

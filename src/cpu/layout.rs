@@ -47,6 +47,18 @@ impl Item {
         }
     }
 
+    /// Places of the corners of its elements.
+    pub fn corners(&self) -> Vec<[u32; 8]> {
+        match self {
+            Item::Rows(rows) => {
+                rows.rows.iter().flat_map(|row| (0..row.count).map(|i| row.corners(i))).collect()
+            }
+            Item::Loose(loose) => {
+                (0..loose.elements.len()).map(|lane| loose.nodes.map(|corner| corner[lane])).collect()
+            }
+        }
+    }
+
     /// Entries of the table of shapes, by batch.
     pub fn shapes(&self) -> &[u32] {
         match self {

@@ -1,5 +1,7 @@
 //! Rows of elements, and how batches of lanes go along them.
 
+use crate::model::chains::{BACK, FRONT};
+
 /// A chain of elements on four node lines.
 #[derive(Debug, Clone)]
 pub struct Row {
@@ -11,6 +13,18 @@ pub struct Row {
     /// Whether the slot holds forces of an earlier row already.
     pub add: [bool; 4],
     pub(super) lines: [usize; 4],
+}
+
+impl Row {
+    /// Places of the corners of its element number `i`.
+    pub fn corners(&self, i: usize) -> [u32; 8] {
+        let mut places = [0; 8];
+        for k in 0..4 {
+            places[BACK[k]] = (self.x[k] + i) as u32;
+            places[FRONT[k]] = (self.x[k] + i + 1) as u32;
+        }
+        places
+    }
 }
 
 /// Lanes of one batch: consecutive elements of a row, and behind its last one the first elements of the next.

@@ -2,6 +2,7 @@
 
 use super::elements::{Build, Composable, Failed, Power};
 use super::engine::CpuEngine;
+use super::layout::Line;
 use super::nodes::{Books, Conditions, LineContact, LineSums, NodePass};
 use super::reduce::total;
 use super::rim::{Reaction, RimState};
@@ -239,16 +240,15 @@ where
         }
     }
 
-    /// Internal force of the node at a place: its slots, first to last.
+    /// Internal force of node `i` of a line: its slots, first to last.
     ///
     /// # Safety
     /// No thread writes forces.
-    pub(super) unsafe fn gather(&self, place: usize, view: &View<T>) -> Vec3<T> {
-        let slots = self.slot_start[place] as usize..self.slot_start[place + 1] as usize;
+    pub(super) unsafe fn gather(line: &Line, i: usize, view: &View<T>) -> Vec3<T> {
         let mut f = [T::zero(); 3];
-        for (k, &slot) in self.slot_at[slots].iter().enumerate() {
+        for (k, &slot) in line.slots.iter().enumerate() {
             for d in 0..3 {
-                let part = unsafe { *view.f[d].add(slot as usize) };
+                let part = unsafe { *view.f[d].add(slot + i) };
                 f[d] = if k == 0 { part } else { f[d] + part };
             }
         }
@@ -261,8 +261,9 @@ where
     /// No thread writes forces or positions.
     unsafe fn reaction(&self, view: &View<T>, axle: [f64; 3]) -> Reaction {
         let mut sum = Reaction::default();
-        for &n in &self.rim_nodes {
-            let f_int = unsafe { self.gather(n, view) };
+        for &(line, i) in &self.rim_nodes {
+            let line = &self.nodes.lines[line];
+            let (n, f_int) = (line.start + i, unsafe { Self::gather(line, i, view) });
             let weight = |i: usize| (self.nodes.mass.slice()[n] * self.gravity[i]).to_f64();
             let f: [f64; 3] = std::array::from_fn(|i| weight(i) - f_int[i].to_f64());
             let arm: [f64; 3] = std::array::from_fn(|i| unsafe { *view.x[i].add(n) }.to_f64() - axle[i]);
