@@ -55,6 +55,13 @@ fn rank(info: &wgpu::AdapterInfo) -> u8 {
     }
 }
 
+/// Whether shaders may compute in double precision: on Vulkan. Direct3D offers doubles too, but the functions of HLSL (roots,
+/// products of vectors) are single, so that results would be.
+fn has_doubles(adapter: &wgpu::Adapter) -> bool {
+    adapter.get_info().backend == wgpu::Backend::Vulkan
+        && adapter.features().contains(wgpu::Features::SHADER_F64)
+}
+
 fn report(adapter: &wgpu::Adapter) -> AdapterReport {
     let (info, limits) = (adapter.get_info(), adapter.limits());
     let buffers = limits.max_storage_buffers_per_shader_stage;
@@ -77,7 +84,7 @@ fn report(adapter: &wgpu::Adapter) -> AdapterReport {
         workgroups: limits.max_compute_workgroups_per_dimension,
         shared_memory: limits.max_compute_workgroup_storage_size,
         timestamps: adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES),
-        doubles: adapter.features().contains(wgpu::Features::SHADER_F64),
+        doubles: has_doubles(adapter),
         unusable,
     }
 }
