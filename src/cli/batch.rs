@@ -94,7 +94,10 @@ fn precision_named(name: &str, file: &str) -> Result<Precision> {
 pub fn settled(engine: &EngineArgs) -> EngineArgs {
     let real = || choose::usable(&adapters(), engine.adapter.as_deref()).is_some_and(|a| !a.software);
     let choice = match engine.engine {
-        EngineChoice::Auto if engine.precision == Some(Precision::F64) => EngineChoice::Cpu,
+        // Few GPUs are fast in doubles; who names one has chosen.
+        EngineChoice::Auto if engine.precision == Some(Precision::F64) && engine.adapter.is_none() => {
+            EngineChoice::Cpu
+        }
         EngineChoice::Auto if engine.precision.is_none() && engine.adapter.is_none() && !real() => {
             EngineChoice::Cpu
         }

@@ -248,11 +248,12 @@ impl Choice {
         }
     }
 
-    /// The exponential, and what it needs.
+    /// The part with e^x.
     fn exponential(&self) -> &'static str {
         self.of_real("real/exp_single", "real/exp_double")
     }
 
+    /// The part with ln x, and what it needs.
     fn logarithm(&self) -> Vec<&'static str> {
         match self.precision.real() {
             Real::Single => vec!["real/log_single"],
