@@ -3,11 +3,13 @@
 mod chatter;
 pub mod estimate;
 mod fields;
+mod follow;
 mod footprint;
 mod implicit;
 mod lanczos;
 mod ledger;
 mod motion;
+mod settle;
 pub mod stability;
 
 pub use estimate::Estimate;
@@ -428,113 +430,6 @@ impl<'a> Run<'a> {
         self.totals.dt_min = self.totals.dt_min.min(dt);
         self.totals.dt_max = self.totals.dt_max.max(dt);
         Ok(())
-    }
-
-    /// Has the critical step looked at out of turn when the last answer was found on another body: by an impact, or a press
-    /// after a rest.
-    fn watch(&mut self, window: &Window) {
-        let stored = window.strain + window.hourglass;
-        if stored > 1.5 * self.strained || window.min_jacobian < self.squeezed - 0.05 {
-            (self.strained, self.squeezed) =
-                (self.strained.max(stored), self.squeezed.min(window.min_jacobian));
-            (self.refresh_at, self.refresh_interval) = (self.totals.steps, 0);
-        }
-    }
-
-    /// Finds the critical step again, and decides how long to trust it, unless [`Run::watch`] says otherwise: twice
-    /// as long while it stays within 0.2 %, four times while within a quarter of that, half as long where it moves by more than
-    /// 1 % (the safety factor covers 5 to 10 %).
-    fn refresh(&mut self) -> Result<()> {
-        const SHORTEST: u64 = 200;
-        const LONGEST: u64 = 6_400;
-        let first = self.critical.dt == 0.0;
-        let guess = if first { self.totals.element_bound } else { self.critical.dt };
-        let x = self.engine.state()?.x;
-        let new =
-            stability::assembled(self.engine, self.model, &x, guess, (!first).then_some(&self.critical))?;
-        let change = if first { 1.0 } else { (new.dt / self.critical.dt - 1.0).abs() };
-        self.refresh_interval = match self.refresh_interval {
-            0 => SHORTEST,
-            i if change < 5e-4 => (4 * i).min(LONGEST),
-            i if change < 2e-3 => (2 * i).min(LONGEST),
-            i if change > 1e-2 => (i / 2).max(SHORTEST),
-            i => i,
-        };
-        if first {
-            self.totals.critical_first = new.dt;
-        }
-        self.totals.critical_min = self.totals.critical_min.min(new.dt);
-        self.totals.lanczos_iterations += new.iterations;
-        self.critical = new;
-        self.refresh_at = self.totals.steps + self.refresh_interval;
-        Ok(())
-    }
-
-    fn has_settled(&mut self, stage: &Stage, window: &Window) -> Result<bool> {
-        let Method::QuasiStatic { kinetic_ratio, residual } = stage.method else { return Ok(false) };
-        let ratio = |a: f64, b: f64| if b > 0.0 { a / b } else { f64::INFINITY };
-        let before = self.last_ratios[1];
-        self.last_ratios = [
-            ratio(window.kinetic, window.strain),
-            ratio(window.probe.net_force, window.probe.internal_force),
-        ];
-        let at_rest = self.last_ratios[0] <= kinetic_ratio || window.kinetic <= self.rounding_kinetic(stage);
-        if self.totals.time < self.motion.settled_after() || !at_rest {
-            return Ok(false);
-        }
-        // Where rounding leaves more than is asked for, it is over when the net force has stopped falling.
-        let stopped = self.last_ratios[1] > 0.8 * before;
-        let left = |run: &mut Self| -> Result<bool> {
-            Ok(window.probe.net_force <= run.rounding_amplitude(stage) * run.rounding_force()?)
-        };
-        Ok(self.last_ratios[1] <= residual || stopped && left(self)?)
-    }
-
-    /// Amplitude, over half a unit in the last place, at which mass damping holds the oscillation that rounding drives: each
-    /// step adds a third of the unit's square and damping takes its share alpha dt away.
-    fn rounding_amplitude(&self, stage: &Stage) -> f64 {
-        (1.0 / (3.0 * stage.mass_damping * self.dt_before)).sqrt().max(1.0)
-    }
-
-    /// Net force that rounding the positions of this engine leaves [N]: no residual can be asked to be smaller. Twice
-    /// what moving every coordinate by half a unit in the last place does, one way or the other; 0 in double precision.
-    fn rounding_force(&mut self) -> Result<f64> {
-        let half_unit = self.half_unit();
-        if half_unit == 0.0 {
-            return Ok(0.0);
-        }
-        let mesh = &self.model.mesh;
-        let x = self.engine.state()?.x;
-        let still = vec![[0.0; 3]; x.len()];
-        let mut sign = 1u32;
-        let mut nudged = x.clone();
-        for c in nudged.iter_mut().flatten() {
-            sign = sign.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            *c += if sign >> 31 == 0 { half_unit } else { -half_unit };
-        }
-        let (f, g) = (self.engine.force(&x, &still)?, self.engine.force(&nudged, &still)?);
-        let free = (0..x.len()).filter(|&n| mesh.rim.binary_search(&(n as u32)).is_err());
-        let held = |n: usize, d: usize| mesh.held.get(n).is_some_and(|bits| bits >> d & 1 == 1);
-        let square =
-            |n: usize| (0..3).filter(|&d| !held(n, d)).map(|d| (f[n][d] - g[n][d]).powi(2)).sum::<f64>();
-        Ok(2.0 * free.map(square).sum::<f64>().sqrt())
-    }
-
-    /// Half a unit in the last place of the engine's positions [m]; 0 in double precision.
-    fn half_unit(&self) -> f64 {
-        if self.engine.info().precision == "f64" {
-            return 0.0;
-        }
-        let mesh = &self.model.mesh;
-        let reach = |x: &[f64; 3]| (0..3).map(|d| (x[d] - mesh.axle[d]).abs()).fold(0.0, f64::max);
-        0.5 * f64::from(f32::EPSILON) * mesh.nodes.iter().map(reach).fold(0.0, f64::max)
-    }
-
-    /// Kinetic energy that rounding the positions keeps up [J]: no relaxation comes to less. Every node at the highest
-    /// frequency, 2 / dt, with the amplitude that rounding keeps up; 0 in double precision.
-    fn rounding_kinetic(&self, stage: &Stage) -> f64 {
-        let speed = 2.0 / self.critical.dt * self.half_unit() * self.rounding_amplitude(stage);
-        0.5 * self.model.mass.iter().sum::<f64>() * speed * speed
     }
 
     /// Hands out a snapshot if one is due; whether it was.
