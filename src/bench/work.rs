@@ -92,17 +92,17 @@ pub fn step_operations<T: Real>(model: &Model) -> [f64; 2] {
 }
 
 /// The passes of a step of the CPU engine in precision `T`: one, since a node moves while the forces of its elements are
-/// in the cache. It reads and writes positions and velocities, writes and reads nodal forces, and reads mass and inverse
-/// mass, each once.
+/// in the cache. It reads and writes positions and velocities and reads mass and inverse mass, each once; nodal forces stay
+/// in the cache of a core.
 pub fn cpu_passes<T: Real>(model: &Model) -> Vec<Pass> {
     let nodes = model.node_count() as f64;
     let [element_flops, node_flops] = step_operations::<T>(model);
-    let bytes = size_of::<T>() as f64 * (3.0 * 6.0 + 2.0) * nodes;
+    let bytes = size_of::<T>() as f64 * (3.0 * 4.0 + 2.0) * nodes;
     vec![Pass { name: "step".into(), bytes, flops: element_flops + node_flops }]
 }
 
-/// Size of the arrays that a step of the CPU engine goes through [bytes]: positions, velocities, masses, and the forces
-/// of two rows of groups on most nodes.
+/// Size of the arrays that a step of the CPU engine goes through [bytes]: positions, velocities, masses. Forces are those of
+/// a few layers.
 pub fn cpu_arrays<T: Real>(model: &Model) -> f64 {
-    size_of::<T>() as f64 * (3.0 * 4.0 + 2.0) * model.node_count() as f64
+    size_of::<T>() as f64 * (3.0 * 2.0 + 2.0) * model.node_count() as f64
 }

@@ -116,19 +116,19 @@ unsafe fn copied_corners<N: Lanes>(field: &[[N::Real; 8 * WIDEST]; 3]) -> Corner
 unsafe fn row_corners<N: Lanes>(rows: &Rows, batch: &Batch, field: &[*mut N::Real; 3]) -> Corners<N> {
     let mut x = [[N::zero(); 3]; 8];
     unsafe {
-        let row = rows.rows.get_unchecked(batch.row);
+        let row = rows.rows.get_unchecked(batch.row());
         for k in 0..4 {
             for d in 0..3 {
-                x[BACK[k]][d] = N::load(field[d], row.x[k] + batch.at);
-                x[FRONT[k]][d] = N::load(field[d], row.x[k] + batch.at + 1);
+                x[BACK[k]][d] = N::load(field[d], row.x[k] + batch.at());
+                x[FRONT[k]][d] = N::load(field[d], row.x[k] + batch.at() + 1);
             }
         }
-        if batch.next > 0 {
-            let row = rows.rows.get_unchecked(batch.row + 1);
+        if batch.next() > 0 {
+            let row = rows.rows.get_unchecked(batch.row() + 1);
             let mask = next_lanes(batch);
             for k in 0..4 {
                 for d in 0..3 {
-                    let from = field[d].wrapping_add(row.x[k]).wrapping_sub(batch.lanes);
+                    let from = field[d].wrapping_add(row.x[k]).wrapping_sub(batch.lanes());
                     x[BACK[k]][d] = x[BACK[k]][d].load_over(from, mask);
                     x[FRONT[k]][d] = x[FRONT[k]][d].load_over(from.wrapping_add(1), mask);
                 }
@@ -141,7 +141,7 @@ unsafe fn row_corners<N: Lanes>(rows: &Rows, batch: &Batch, field: &[*mut N::Rea
 /// Lanes of a batch that are elements of the next row.
 #[inline(always)]
 fn next_lanes(batch: &Batch) -> u32 {
-    first(batch.lanes + batch.next) & !first(batch.lanes)
+    first(batch.lanes() + batch.next()) & !first(batch.lanes())
 }
 
 /// Reference geometry of a batch's lanes.
@@ -237,14 +237,14 @@ unsafe fn add_to_rows<N: Lanes>(
     carry: &mut [Vec3<N>; 4],
 ) {
     unsafe {
-        let row = rows.rows.get_unchecked(batch.row);
+        let row = rows.rows.get_unchecked(batch.row());
         add_to_row(row, view, batch, f, carry);
-        if batch.at + batch.lanes < row.count {
+        if batch.at() + batch.lanes() < row.count {
             return;
         }
-        end_of_row(row, view, batch.lanes, carry);
-        if batch.next > 0 {
-            start_of_row(rows.rows.get_unchecked(batch.row + 1), view, batch, f);
+        end_of_row(row, view, batch.lanes(), carry);
+        if batch.next() > 0 {
+            start_of_row(rows.rows.get_unchecked(batch.row() + 1), view, batch, f);
         } else {
             *carry = [[N::zero(); 3]; 4];
         }
@@ -260,10 +260,10 @@ unsafe fn add_to_row<N: Lanes>(
     f: &Corners<N>,
     carry: &mut [Vec3<N>; 4],
 ) {
-    let count = batch.lanes;
+    let count = batch.lanes();
     for k in 0..4 {
         for d in 0..3 {
-            let to = row.f[k] + batch.at;
+            let to = row.f[k] + batch.at();
             let (mut back, front) = (f[BACK[k]][d], f[FRONT[k]][d]);
             if count < N::WIDTH {
                 back = back.choose(N::zero(), first(count));
@@ -311,10 +311,10 @@ unsafe fn end_of_row<N: Lanes>(row: &Row, view: &View<N::Real>, lanes: usize, ca
 #[inline(always)]
 unsafe fn start_of_row<N: Lanes>(row: &Row, view: &View<N::Real>, batch: &Batch, f: &Corners<N>) {
     let mask = next_lanes(batch);
-    let behind = mask & !(1 << batch.lanes);
+    let behind = mask & !(1 << batch.lanes());
     for k in 0..4 {
         for d in 0..3 {
-            let to = view.f[d].wrapping_add(row.f[k]).wrapping_sub(batch.lanes);
+            let to = view.f[d].wrapping_add(row.f[k]).wrapping_sub(batch.lanes());
             let front = f[FRONT[k]][d].moved_up(N::zero()).choose(N::zero(), behind);
             let mut sum = f[BACK[k]][d] + front;
             unsafe {

@@ -5,7 +5,8 @@ use super::layout::{Item, Layout};
 use super::nodes::{Books, Conditions, LineContact, LineSums, NodePass, Nodes};
 use super::reduce::total;
 use super::rim::RimState;
-use super::schedule::{Share, shares};
+use super::schedule::{Share, Task, shares};
+use super::slots;
 use super::state::{Field, View};
 use super::steps::Pointer;
 use crate::engine::{Engine, EngineInfo, StageSetup, State, Step, StepContact, SurfaceSum, Window};
@@ -54,6 +55,8 @@ pub struct CpuEngine<T> {
     pub(super) x: Field<T>,
     pub(super) v: Field<T>,
     pub(super) f: Field<T>,
+    /// Positions and velocities that a step which fails is taken back to.
+    pub(super) before: [Field<T>; 2],
     /// Viscous work so far of the window [J], by item and lane.
     pub(super) power: Vec<f64>,
     pub(super) sums: Vec<LineSums>,
@@ -90,11 +93,14 @@ where
         };
         let mesh = &model.mesh;
         let width = elements::width(level, size_of::<T>() == 4);
-        let layout = Layout::new(model, scene.road.is_some(), width);
+        let mut layout = Layout::new(model, scene.road.is_some(), width);
         let surface_nodes = if scene.road.is_some() { mesh.surface.clone() } else { Vec::new() };
         let grain = frame::grain(mesh);
         let frame = frame::shift(grain, mesh.axle, [0.0; 3], scene.road.as_ref());
         let shares = shares(&layout, threads);
+        let Layout { items, lines, groups, .. } = &mut layout;
+        let lengths: Vec<usize> = lines.iter().map(|line| line.length(width)).collect();
+        let slots = slots::lay(items, lines, groups, &shares, &lengths);
         let mut engine = CpuEngine {
             kernel: elements::compose(model, level),
             power: vec![0.0; layout.items.len() * WIDEST],
@@ -115,7 +121,8 @@ where
             rim: rim_state(model),
             x: Field::zeros(layout.places),
             v: Field::zeros(layout.places),
-            f: Field::zeros(layout.slots),
+            f: Field::zeros(slots),
+            before: [Field::zeros(layout.places), Field::zeros(layout.places)],
             elements: Elements { shapes: shape_table(model, &layout, width), items: layout.items },
             place: layout.place,
             shares,
@@ -144,8 +151,7 @@ where
     /// no lane computes with anything but a body's numbers.
     fn fill(&self, field: &mut Field<T>, values: &[[f64; 3]], origin: [f64; 3]) {
         for line in &self.nodes.lines {
-            let vectors = line.nodes.len().div_ceil(self.width()) + 1;
-            for (i, &n) in line.nodes.iter().cycle().take(vectors * self.width()).enumerate() {
+            for (i, &n) in line.nodes.iter().cycle().take(line.length(self.width())).enumerate() {
                 field.set(line.start + i, sub64(values[n as usize], origin));
             }
         }
@@ -174,7 +180,7 @@ where
     fn clear_loose(&mut self) {
         let width = self.width();
         for line in self.nodes.lines.iter().filter(|l| l.loose) {
-            let length = (line.nodes.len().div_ceil(width) + 1) * width;
+            let length = line.length(width);
             for &slot in &line.slots {
                 for d in 0..3 {
                     self.f.component_mut(d)[slot..slot + length].fill(T::zero());
@@ -266,10 +272,16 @@ where
             let numbered = (self.steps..).zip(steps).zip(starts);
             numbered.map(|((n, s), before)| self.conditions(n, s, before, &s.rim, false)).collect()
         };
-        let before = (self.x.clone(), self.v.clone(), self.rim);
+        let [x, v] = &mut self.before;
+        x.copy_from(&self.x);
+        v.copy_from(&self.v);
+        let rim = self.rim;
         if let Some((taken, element)) = self.run_steps(steps, &plan, free_rim) {
             // Some nodes of the failing step have moved already: take the steps before it again.
-            (self.x, self.v, self.rim) = before;
+            let [x, v] = &self.before;
+            self.x.copy_from(x);
+            self.v.copy_from(v);
+            self.rim = rim;
             self.clear_loose();
             self.run_steps(&steps[..taken], &plan, free_rim);
             self.steps += taken as u64;
@@ -368,10 +380,24 @@ where
         let mut power = vec![0.0; self.power.len()];
         let power = Pointer(power.as_mut_ptr());
         let engine = &*self;
+        let mut forces = vec![[0.0; 3]; self.place.len()];
+        let out = Pointer(forces.as_mut_ptr());
+        let gather = |line: u32| {
+            let line = &engine.nodes.lines[line as usize];
+            for (i, &n) in line.nodes.iter().enumerate() {
+                // SAFETY: the line's forces are complete, and its nodes are no other's.
+                unsafe { *out.get().add(n as usize) = Self::gather(line, i, &view).map(Real::to_f64) };
+            }
+        };
         let work = |member: usize| {
-            for item in engine.shares[member].items.clone() {
-                // SAFETY: shares do not overlap; positions are only read.
-                unsafe { engine.forces(item, &view, power.get(), 0.0) };
+            for task in &engine.shares[member].early {
+                match *task {
+                    // SAFETY: shares do not overlap; positions are only read.
+                    Task::Forces(item) => unsafe {
+                        engine.forces(item as usize, &view, power.get(), 0.0);
+                    },
+                    Task::Move(line) => gather(line),
+                }
             }
         };
         std::thread::scope(|scope| {
@@ -381,13 +407,7 @@ where
             }
             work(0);
         });
-        let mut forces = vec![[0.0; 3]; self.place.len()];
-        for line in &self.nodes.lines {
-            for (i, &n) in line.nodes.iter().enumerate() {
-                // SAFETY: the threads have ended.
-                forces[n as usize] = unsafe { Self::gather(line, i, &view) }.map(Real::to_f64);
-            }
-        }
+        engine.shares.iter().flat_map(|share| &share.late).for_each(|line| gather(*line));
         self.clear_loose();
         Ok(forces)
     }

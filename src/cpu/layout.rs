@@ -8,7 +8,7 @@
 //!
 //! Forces are summed line by line into *slots*: one copy of the line for every group of rows that touches it, in
 //! which the group's rows are added in order. A node's force is the sum of its slots, first to last: the same bits
-//! however the groups are shared out among threads.
+//! however the groups are shared out among threads, and wherever the slots lie ([`super::slots`]).
 
 use super::rows::{Row, Rows, runs};
 use crate::model::Model;
@@ -98,14 +98,21 @@ pub struct Line {
     pub items: (usize, usize),
 }
 
+impl Line {
+    /// Numbers of it in an array for lanes of `width`: a vector more than it fills, so that a load from the second node on
+    /// stays inside.
+    pub fn length(&self, width: usize) -> usize {
+        (self.nodes.len().div_ceil(width) + 1) * width
+    }
+}
+
 /// The whole arrangement for lanes of one width.
 #[derive(Debug, Clone)]
 pub struct Layout {
     /// Place of every node.
     pub place: Vec<u32>,
-    /// Lengths of arrays by place, and of the force arrays.
+    /// Length of arrays by place.
     pub places: usize,
-    pub slots: usize,
     pub items: Vec<Item>,
     pub lines: Vec<Line>,
     /// Items by group.
@@ -295,13 +302,12 @@ impl<'a> Builder<'a> {
         }
         let groups = self.groups();
         let places = self.lay_nodes();
-        let slots = self.lay_forces(&groups, &touched);
         let groups = self.join(&groups);
         let surface_lines = self.roles(model, road);
         let place = |at: &At| (self.lines[at.line as usize].start + at.index as usize) as u32;
         let place = self.at.iter().map(place).collect();
         let Builder { items, lines, shapes, .. } = self;
-        Layout { place, places, slots, items, lines, groups, shapes, surface_lines }
+        Layout { place, places, items, lines, groups, shapes, surface_lines }
     }
 
     /// Cuts the items so that a line meets few groups.
@@ -370,68 +376,24 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Vectors of a line: one more than it fills, so that a load from the second node on stays inside.
-    fn vectors(&self, line: &Line) -> usize {
-        (line.nodes.len().div_ceil(self.width) + 1) * self.width
-    }
-
+    /// Lays the lines one behind the other and tells the items where; returns the length of arrays by place.
     fn lay_nodes(&mut self) -> usize {
         let mut next = 0;
-        for l in 0..self.lines.len() {
-            self.lines[l].start = next;
-            next += self.vectors(&self.lines[l]);
+        for line in &mut self.lines {
+            line.start = next;
+            next += line.length(self.width);
         }
-        next
-    }
-
-    /// Slots of every line, and where each item puts its forces.
-    fn lay_forces(&mut self, groups: &[Range<usize>], touched: &[Vec<usize>]) -> usize {
-        let mut group_of = vec![0; self.items.len()];
-        for (g, range) in groups.iter().enumerate() {
-            group_of[range.clone()].fill(g);
-        }
-        let mut met: Vec<Vec<usize>> = vec![Vec::new(); self.lines.len()];
-        for (i, lines) in touched.iter().enumerate() {
-            for &l in lines {
-                if met[l].last() != Some(&group_of[i]) {
-                    met[l].push(group_of[i]);
-                }
-            }
-        }
-        let mut next = 0;
-        for l in 0..self.lines.len() {
-            for _ in 0..met[l].len().max(1) {
-                self.lines[l].slots.push(next);
-                next += self.vectors(&self.lines[l]);
-            }
-            // A node of no element: nobody writes its slot.
-            self.lines[l].loose |= met[l].is_empty();
-        }
-        let mut filled = vec![false; next];
-        for i in 0..self.items.len() {
-            let slot = |l: usize| {
-                let k = met[l].iter().position(|g| *g == group_of[i]).expect("the item meets the line");
-                self.lines[l].slots[k]
-            };
-            match &mut self.items[i] {
+        for item in &mut self.items {
+            match item {
                 Item::Rows(rows) => {
-                    for row in &mut rows.rows {
-                        row.x = row.lines.map(|l| self.lines[l].start);
-                        row.f = row.lines.map(slot);
-                        for k in 0..4 {
-                            let before = std::mem::replace(&mut filled[row.f[k]], true);
-                            row.add[k] = before || self.lines[row.lines[k]].loose;
-                        }
-                    }
+                    rows.rows.iter_mut().for_each(|row| row.x = row.lines.map(|l| self.lines[l].start));
                 }
                 Item::Loose(loose) => {
                     for lane in 0..WIDEST {
                         let e = loose.elements[lane.min(loose.elements.len() - 1)];
                         for c in 0..8 {
-                            let at = self.at[self.model.mesh.hexes[e as usize][c] as usize];
-                            let (line, index) = (at.line as usize, at.index);
-                            loose.nodes[c][lane] = self.lines[line].start as u32 + index;
-                            loose.f[c][lane] = slot(line) as u32 + index;
+                            let At { line, index } = self.at[self.model.mesh.hexes[e as usize][c] as usize];
+                            loose.nodes[c][lane] = self.lines[line as usize].start as u32 + index;
                         }
                     }
                 }

@@ -12,6 +12,7 @@ mod reduce;
 mod rim;
 mod rows;
 mod schedule;
+mod slots;
 mod state;
 mod steps;
 mod team;

@@ -12,7 +12,8 @@ pub struct Row {
     pub f: [usize; 4],
     /// Whether the slot holds forces of an earlier row already.
     pub add: [bool; 4],
-    pub(super) lines: [usize; 4],
+    /// Numbers of these lines.
+    pub lines: [usize; 4],
 }
 
 impl Row {
@@ -30,12 +31,40 @@ impl Row {
 /// Lanes of one batch: consecutive elements of a row, and behind its last one the first elements of the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Batch {
-    pub row: usize,
+    // Small: there is one for every few elements.
+    row: u32,
+    at: u32,
+    lanes: u8,
+    next: u8,
+}
+
+impl Batch {
+    fn new([row, at, lanes, next]: [usize; 4]) -> Batch {
+        Batch { row: row as u32, at: at as u32, lanes: lanes as u8, next: next as u8 }
+    }
+
+    #[inline(always)]
+    pub fn row(&self) -> usize {
+        self.row as usize
+    }
+
     /// Element of the row in lane 0.
-    pub at: usize,
-    /// Lanes on the row, and on the next.
-    pub lanes: usize,
-    pub next: usize,
+    #[inline(always)]
+    pub fn at(&self) -> usize {
+        self.at as usize
+    }
+
+    /// Lanes on the row.
+    #[inline(always)]
+    pub fn lanes(&self) -> usize {
+        self.lanes as usize
+    }
+
+    /// Lanes on the next row.
+    #[inline(always)]
+    pub fn next(&self) -> usize {
+        self.next as usize
+    }
 }
 
 /// Rows that batches run through from the first element to the last: the lanes that one would leave empty at its end take
@@ -58,7 +87,7 @@ impl Rows {
         while row < rows.len() {
             let lanes = (rows[row].count - at).min(width);
             let next = rows.get(row + 1).map_or(0, |next| next.count.min(width - lanes));
-            batches.push(Batch { row, at, lanes, next });
+            batches.push(Batch::new([row, at, lanes, next]));
             at += lanes;
             if at == rows[row].count {
                 (row, at) = (row + 1, next);
@@ -117,11 +146,16 @@ mod tests {
             assert_eq!(rows.batches.len(), all.div_ceil(width), "{counts:?} {rows:?}");
             let mut taken = 0;
             for (b, shape) in rows.batches.iter().zip(&rows.shapes) {
-                let before: usize = counts[..b.row].iter().sum();
-                assert_eq!((before + b.at, b.lanes + b.next), (taken, *shape as usize), "{counts:?} {b:?}");
-                assert!(b.at + b.lanes <= counts[b.row], "{counts:?} {b:?}");
-                assert!(b.next == 0 || b.at + b.lanes == counts[b.row], "{counts:?} {b:?}");
-                taken += b.lanes + b.next;
+                let (row, end) = (b.row(), b.at() + b.lanes());
+                let before: usize = counts[..row].iter().sum();
+                assert_eq!(
+                    (before + b.at(), b.lanes() + b.next()),
+                    (taken, *shape as usize),
+                    "{counts:?} {b:?}"
+                );
+                assert!(end <= counts[row], "{counts:?} {b:?}");
+                assert!(b.next() == 0 || end == counts[row], "{counts:?} {b:?}");
+                taken += b.lanes() + b.next();
             }
             assert_eq!(taken, all, "{counts:?}");
         }

@@ -19,17 +19,14 @@ pub enum Task {
 #[derive(Debug, Clone, Default)]
 pub struct Share {
     pub early: Vec<Task>,
-    /// Items alone, where only forces are wanted.
-    pub items: Range<usize>,
-    /// Lines that move after the threads have met.
+    /// Lines that move after the threads have met; those of the rim are among them.
     pub late: Vec<u32>,
 }
 
 /// Shares of `members` threads.
 pub fn shares(layout: &Layout, members: usize) -> Vec<Share> {
     let owned = owned_items(layout, members);
-    let mut shares: Vec<Share> =
-        owned.iter().map(|items| Share { items: items.clone(), ..Share::default() }).collect();
+    let mut shares = vec![Share::default(); members];
     let mut ready = vec![Vec::new(); layout.items.len()];
     let mut late = Vec::new();
     for (l, line) in layout.lines.iter().enumerate() {
@@ -37,8 +34,8 @@ pub fn shares(layout: &Layout, members: usize) -> Vec<Share> {
         let alone = owned.iter().any(|o| o.contains(&first) && o.contains(&last));
         if alone && !line.has_rim { ready[last].push(l as u32) } else { late.push(l as u32) }
     }
-    for share in &mut shares {
-        for i in share.items.clone() {
+    for (share, items) in shares.iter_mut().zip(owned) {
+        for i in items {
             share.early.push(Task::Forces(i as u32));
             share.early.extend(ready[i].iter().map(|l| Task::Move(*l)));
         }

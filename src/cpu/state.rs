@@ -61,6 +61,11 @@ impl<T: Real> Field<T> {
         &mut self.all.slice_mut()[range]
     }
 
+    /// Becomes a copy of a field of the same length, in the memory it has.
+    pub fn copy_from(&mut self, other: &Field<T>) {
+        self.all.slice_mut().copy_from_slice(other.all.slice());
+    }
+
     pub fn get(&self, at: usize) -> [f64; 3] {
         [0, 1, 2].map(|d| self.component(d)[at].to_f64())
     }

@@ -77,12 +77,21 @@ where
         let members = self.shares.len();
         let barrier = SpinBarrier::new(members);
         let (first, engine) = (self.steps, &*self);
+        let held = self.rim.q;
         let work = |member: usize| {
             // SAFETY: shares do not overlap, barriers stand between what one writes and another reads, and the rim's
             // state and the host's records are written by member 0 only.
             for (n, step) in steps.iter().enumerate() {
                 let books = &books[n % 2];
-                let early = plan.get(n);
+                // Lines that move early have no rim nodes: the motion of a free rim is nothing to them.
+                let without_rim;
+                let early = match plan.get(n) {
+                    Some(conditions) => conditions,
+                    None => {
+                        without_rim = engine.conditions(first + n as u64, step, &held, &held, false);
+                        &without_rim
+                    }
+                };
                 let bad =
                     unsafe { engine.early(member, early, &view, books, power.get(), step.dtm(), false) };
                 if let Some(element) = bad.0 {
@@ -107,7 +116,7 @@ where
                 } else {
                     &plan[n]
                 };
-                unsafe { engine.late(member, conditions, &view, books, false, free_rim) };
+                unsafe { engine.late(member, conditions, &view, books, false) };
                 barrier.wait();
                 if member == 0 && engine.road.is_some() {
                     let (host, touching) = unsafe { (&mut *host.get(), &mut *host_touching.get()) };
@@ -130,8 +139,7 @@ where
         (element != usize::MAX).then(|| (failed_step.load(Ordering::Relaxed), element))
     }
 
-    /// A member's forces, and the nodes that may move before the threads meet. Without conditions none do: where the
-    /// rim is free they depend on its motion, and it on all forces.
+    /// A member's forces, and the nodes that move before the threads meet: none of the rim.
     ///
     /// # Safety
     /// No other thread works on this share.
@@ -139,7 +147,7 @@ where
     unsafe fn early(
         &self,
         member: usize,
-        conditions: Option<&Conditions<T>>,
+        conditions: &Conditions<T>,
         view: &View<T>,
         books: &Books,
         power: *mut f64,
@@ -148,15 +156,14 @@ where
     ) -> Failed {
         let mut failed = Failed(None);
         for task in &self.shares[member].early {
-            match (*task, conditions) {
-                (Task::Forces(item), _) => unsafe {
+            match *task {
+                Task::Forces(item) => unsafe {
                     let bad = self.forces(item as usize, view, power, weight);
                     failed.0 = [failed.0, bad.0].into_iter().flatten().min();
                 },
-                (Task::Move(line), Some(c)) => unsafe {
-                    T::node_pass(&self.nodes, c, line as usize, view, books, probe);
+                Task::Move(line) => unsafe {
+                    T::node_pass(&self.nodes, conditions, line as usize, view, books, probe);
                 },
-                (Task::Move(_), None) => {}
             }
         }
         failed
@@ -173,29 +180,14 @@ where
         }
     }
 
-    /// The nodes of a member that wait for all forces, or all of its nodes.
+    /// The nodes of a member that wait for all forces.
     ///
     /// # Safety
     /// No other thread works on this share.
-    unsafe fn late(
-        &self,
-        member: usize,
-        c: &Conditions<T>,
-        view: &View<T>,
-        books: &Books,
-        probe: bool,
-        all: bool,
-    ) {
-        let share = &self.shares[member];
-        let move_line = |line: u32| unsafe {
-            T::node_pass(&self.nodes, c, line as usize, view, books, probe);
-        };
-        for task in share.early.iter().filter(|_| all) {
-            if let Task::Move(line) = *task {
-                move_line(line);
-            }
+    unsafe fn late(&self, member: usize, c: &Conditions<T>, view: &View<T>, books: &Books, probe: bool) {
+        for &line in &self.shares[member].late {
+            unsafe { T::node_pass(&self.nodes, c, line as usize, view, books, probe) };
         }
-        share.late.iter().for_each(|line| move_line(*line));
     }
 
     /// The step after the window, not taken.
@@ -212,13 +204,15 @@ where
             // SAFETY: as in `run_steps`; nothing but forces and sums is written.
             unsafe {
                 let weight = 0.5 * next.dt_before;
-                engine.early(member, None, &view, &books, shared_power.get(), weight, true);
+                let held = &engine.rim.q;
+                let without_rim = engine.conditions(engine.steps, next, held, held, true);
+                engine.early(member, &without_rim, &view, &books, shared_power.get(), weight, true);
                 barrier.wait();
                 let reaction = engine.reaction(&view, engine.local(&engine.rim.q));
                 let (q, _) = engine.rim.advanced(&engine.setup, next, &reaction);
                 let c = engine.conditions(engine.steps, next, &engine.rim.q, &q, true);
                 barrier.wait();
-                engine.late(member, &c, &view, &books, true, true);
+                engine.late(member, &c, &view, &books, true);
             }
         };
         std::thread::scope(|scope| {
