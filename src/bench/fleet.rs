@@ -1,6 +1,8 @@
 //! Several wheels at once on a GPU, timed as one.
 
-use super::rows::{Clock, Kind, Timed};
+use super::clock::Clock;
+use super::kind::Kind;
+use super::rows::Timed;
 use super::wheel::Roll;
 use crate::Result;
 use crate::engine::{Engine, EngineInfo, StageSetup, State, Step, Window};

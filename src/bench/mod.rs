@@ -7,12 +7,14 @@
 //! ```
 
 pub mod chart;
+mod clock;
 pub mod counting;
 pub mod cpu_limits;
 pub mod critical;
 mod fleet;
 pub mod floor;
 pub mod gpu_limits;
+pub mod kind;
 pub mod machine;
 pub mod markdown;
 pub mod record;

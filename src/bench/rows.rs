@@ -1,11 +1,11 @@
 //! The rows: every engine asked for on every wheel asked for, timed, and then compared with the reference engine.
 
-use std::time::Instant;
-
+use super::clock::{Clock, together};
 use super::cpu_limits::{CpuLimits, lanes_name};
 use super::fleet::Fleet;
 use super::floor::{self, Bound, Limits};
 use super::gpu_limits::GpuLimits;
+use super::kind::Kind;
 use super::machine::{available_memory, resident_memory};
 use super::report::{Missing, Report, Row, Spread};
 use super::shuffle::shuffled;
@@ -13,67 +13,11 @@ use super::wheel::{Roll, Wheel};
 use super::work::{self, Pass};
 use crate::cpu::{Precision, engine_at};
 use crate::engine::{Engine, State};
-use crate::gpu::{self, Gpu, GpuEngine, PassTime, PassTimes};
+use crate::gpu::{Gpu, GpuEngine, PassTime, PassTimes};
 use crate::model::Model;
 use crate::physics::lanes::Level;
 use crate::scene::Scene;
 use crate::{Error, Result};
-
-/// Engines that can be timed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub enum Kind {
-    CpuF64,
-    CpuF32,
-    GpuF32,
-    #[value(name = "gpu-f32+")]
-    GpuF32Plus,
-    GpuF64,
-}
-
-impl Kind {
-    pub fn name(self) -> &'static str {
-        match self {
-            Kind::CpuF64 => "cpu-f64",
-            Kind::CpuF32 => "cpu-f32",
-            Kind::GpuF32 => "gpu-f32",
-            Kind::GpuF32Plus => "gpu-f32+",
-            Kind::GpuF64 => "gpu-f64",
-        }
-    }
-
-    pub fn on_gpu(self) -> bool {
-        self.gpu_precision().is_some()
-    }
-
-    /// Of the GPU engine, if it is one.
-    pub fn gpu_precision(self) -> Option<gpu::Precision> {
-        match self {
-            Kind::CpuF64 | Kind::CpuF32 => None,
-            Kind::GpuF32 => Some(gpu::Precision::F32),
-            Kind::GpuF32Plus => Some(gpu::Precision::F32Plus),
-            Kind::GpuF64 => Some(gpu::Precision::F64),
-        }
-    }
-
-    /// Whether it computes in double precision.
-    pub fn is_double(self) -> bool {
-        matches!(self, Kind::CpuF64 | Kind::GpuF64)
-    }
-
-    /// Largest error of a row after `steps` over which the wheel came to a mean `deformation` [m].
-    ///
-    /// f64 differs from the reference by rounding alone (lanes, order of sums), which the contact's switching
-    /// amplifies over some thousand steps. In f32 every step rounds a position of up to 62 mm by 2e-9 m at most, at
-    /// random: sqrt(steps) times twice that is allowed, which matters where the wheel is hardly deformed yet. Beside
-    /// it 1e-3: stick and slip alternate in another order (seen: 3e-4); a shear modulus off by 1 % makes 6e-3.
-    pub fn error_limit(self, steps: u64, deformation: f64) -> f64 {
-        match self {
-            Kind::CpuF64 | Kind::GpuF64 => 1e-8,
-            Kind::GpuF32Plus => 1e-3,
-            Kind::CpuF32 | Kind::GpuF32 => 1e-3 + 4e-9 * (steps as f64).sqrt() / deformation,
-        }
-    }
-}
 
 /// What the table covers.
 #[derive(Debug, Clone)]
@@ -111,9 +55,6 @@ impl Order {
         }
     }
 }
-
-/// Measurements of a row.
-const BATCHES: usize = 7;
 
 /// One engine's run, still without its error.
 pub(super) struct Timed {
@@ -251,7 +192,9 @@ impl Bench<'_> {
         let (clock, state, after) = if copies == 1 {
             let mut engine = make();
             let clock = Clock::run(&mut *engine, model, roll, seconds)?;
-            (clock, engine.state()?, resident_memory())
+            // Before the state is copied, which is not the engine's.
+            let after = resident_memory();
+            (clock, engine.state()?, after)
         } else {
             together(copies, &make, model, roll, seconds)?
         };
@@ -437,69 +380,6 @@ fn dominant(passes: &[Pass], pass_us: &[f64], step_us: f64) -> String {
         100.0 * us / all,
         100.0 * all / step_us
     )
-}
-
-/// The measurement of one engine.
-pub(super) struct Clock {
-    pub us: Spread,
-    pub steps: u64,
-    pub batch: usize,
-}
-
-impl Clock {
-    /// Starts the wheel, sinks it in, then times equal batches of steps for about `seconds`.
-    pub fn run(engine: &mut dyn Engine, model: &Model, roll: &Roll, seconds: f64) -> Result<Clock> {
-        roll.start(engine, model)?;
-        let mut taken = 0;
-        let mut advance = |count: usize| -> Result<f64> {
-            let steps = roll.steps(taken, count);
-            let begun = Instant::now();
-            engine.advance(&steps)?;
-            taken += count as u64;
-            Ok(begun.elapsed().as_secs_f64() / count as f64)
-        };
-        // The first steps also build what an engine builds on first use.
-        advance(2)?;
-        let begun = Instant::now();
-        let mut each = advance(8)?;
-        // Until the footprint is there, or for as long as may be.
-        for _ in 0..19 {
-            if begun.elapsed().as_secs_f64() > seconds {
-                break;
-            }
-            each = advance(10)?;
-        }
-        let longest = (roll.whole_run() as usize / BATCHES).max(3);
-        let batch = ((seconds / BATCHES as f64 / each) as usize).clamp(3, longest);
-        let us = (0..BATCHES).map(|_| Ok(1e6 * advance(batch)?)).collect::<Result<Vec<f64>>>()?;
-        Ok(Clock { us: Spread::of(us), steps: taken, batch })
-    }
-}
-
-/// Several independent engines at once, one a thread: the slowest one's times, the first one's state.
-fn together(
-    copies: usize,
-    make: &(dyn Fn() -> Box<dyn Engine> + Sync),
-    model: &Model,
-    roll: &Roll,
-    seconds: f64,
-) -> Result<(Clock, State, Option<u64>)> {
-    let one = || -> Result<(Clock, State, Option<u64>)> {
-        let mut engine = make();
-        let clock = Clock::run(&mut *engine, model, roll, seconds)?;
-        Ok((clock, engine.state()?, resident_memory()))
-    };
-    std::thread::scope(|scope| {
-        let others: Vec<_> = (1..copies).map(|_| scope.spawn(one)).collect();
-        let (mut clock, state, memory) = one()?;
-        for other in others {
-            let (theirs, _, _) = other.join().expect("a timing thread ends")?;
-            if theirs.us.median > clock.us.median {
-                clock.us = theirs.us;
-            }
-        }
-        Ok((clock, state, memory))
-    })
 }
 
 /// States of the f64 engine after as many steps as each of `timed` took, in one run.

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
-use super::rows::Kind;
+use super::kind::Kind;
 use super::wheel::Wheel;
 use crate::cpu::{self, Precision};
 use crate::engine::Engine;

@@ -6,9 +6,10 @@ use clap::{Args, ValueEnum};
 
 use super::choose::usable;
 use crate::bench::critical::{self, CriticalReport};
+use crate::bench::kind::Kind;
 use crate::bench::record::{self, Record};
 use crate::bench::report::{Missing, Report};
-use crate::bench::rows::{self, Kind, Options, Order};
+use crate::bench::rows::{self, Options, Order};
 use crate::bench::{machine::Machine, markdown, straight, wheel};
 use crate::gpu::{Gpu, adapters};
 use crate::physics::lanes::Level;
