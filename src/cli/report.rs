@@ -37,6 +37,9 @@ enum Kind {
     Stability(CasesArgs),
 }
 
+/// Rows of a measurement that has not ended.
+const PARTIAL: &str = "accuracy.partial.csv";
+
 /// What is measured.
 #[derive(Debug, Args)]
 struct AccuracyArgs {
@@ -62,7 +65,7 @@ struct AccuracyArgs {
     /// Keep the errors in accuracy.csv, and measure the wall times again
     #[arg(long)]
     retime: bool,
-    /// Folder for accuracy.md, accuracy.csv and accuracy.png
+    /// Folder for accuracy.md, accuracy.csv and accuracy.png; rows so far are in accuracy.partial.csv until all are there
     #[arg(long, value_name = "DIR", default_value = "docs")]
     out: PathBuf,
 }
@@ -175,13 +178,20 @@ fn accuracy(args: &AccuracyArgs) -> Result<()> {
             Ok(text) if !args.only.is_empty() => accuracy::parse(&table, &text)?,
             _ => Measured::default(),
         };
-        let mut measured = accuracy::measure(&matrix(args), |row| eprintln!("{row}"))?;
+        // Errors are dear: whatever ends this, the rows there are so far are kept.
+        let partial = args.out.join(PARTIAL);
+        std::fs::create_dir_all(&args.out).map_err(Error::io(&args.out, "make the folder"))?;
+        let mut measured = accuracy::measure(&matrix(args), |so_far, line| {
+            eprintln!("{line}");
+            std::fs::write(&partial, accuracy::csv(so_far))
+                .map_err(Error::io(&partial, "keep the rows so far"))
+        })?;
         let from = origin(&measured);
         measured.references.iter_mut().for_each(|r| r.from.clone_from(&from));
         measured.keep(before);
         measured.times_from = "none".into();
-        // Errors are dear: kept before anything else is tried.
         write(&table, &accuracy::csv(&measured))?;
+        std::fs::remove_file(&partial).map_err(Error::io(&partial, "remove the rows so far"))?;
         measured
     };
     let windows = accuracy::time(&mut measured.rows, args.threads)?;

@@ -30,3 +30,19 @@ fn an_unknown_case_is_answered_with_the_known_ones() {
         assert!(done.stderr.contains("\"nothing\"") && done.stderr.contains("known"), "{}", done.stderr);
     }
 }
+
+#[test]
+fn a_measurement_keeps_its_rows_until_it_has_ended() {
+    let place = Place::new();
+    let arguments = ["report", "accuracy", "--only", "wave", "--finest", "1", "--split", "0", "--out", "out"];
+    place.hexroll(&arguments).expect(0);
+    let table = std::fs::read_to_string(place.path("out/accuracy.csv")).unwrap();
+    assert_eq!(table.lines().filter(|l| l.starts_with("wave,")).count(), 6, "{table}");
+    assert!(!place.path("out/accuracy.partial.csv").exists(), "all rows are in accuracy.csv");
+    // Where rows cannot be kept the measurement ends at the first of them.
+    std::fs::create_dir_all(place.path("full/accuracy.partial.csv")).unwrap();
+    let done = place.hexroll(&["report", "accuracy", "--only", "wave", "--finest", "1", "--out", "full"]);
+    let done = done.expect(6);
+    assert!(done.stderr.contains("accuracy.partial.csv"), "{}", done.stderr);
+    assert!(!place.path("full/accuracy.csv").exists());
+}

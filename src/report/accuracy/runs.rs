@@ -103,11 +103,14 @@ const SHORT: f64 = 0.3;
 /// Output window of the runs [s].
 const WINDOW: f64 = 1e-3;
 
-/// Measures the errors of the matrix; `done` hears of every row, and of every run of a reference.
+/// Measures the errors of the matrix; `done` hears of every row, with those before it, and of every run of a reference.
 ///
 /// # Errors
-/// A run that fails, or no adapter where the GPU is asked for.
-pub fn measure(matrix: &Matrix, mut done: impl FnMut(&dyn std::fmt::Display)) -> Result<Measured> {
+/// A run that fails, no adapter where the GPU is asked for, or what `done` answers.
+pub fn measure(
+    matrix: &Matrix,
+    mut done: impl FnMut(&Measured, &dyn std::fmt::Display) -> Result<()>,
+) -> Result<Measured> {
     let gpu = if matrix.gpu > 0 { Some(Gpu::open(None)?) } else { None };
     let mut measured = Measured::default();
     for &problem in &matrix.problems {
@@ -117,17 +120,20 @@ pub fn measure(matrix: &Matrix, mut done: impl FnMut(&dyn std::fmt::Display)) ->
             let begun = Instant::now();
             let run = known.run(setting)?;
             let (mesh, value, seconds) = (setting.mesh, run.value, begun.elapsed().as_secs_f64());
-            done(&format_args!("{:9} reference x{mesh}: {value:.6e} in {seconds:.0} s", problem.name()));
+            let name = problem.name();
+            let line = format_args!("{name:9} reference x{mesh}: {value:.6e} in {seconds:.0} s");
+            done(&measured, &line)?;
             Ok(run)
         })?;
+        measured.references.push(reference.clone());
         let has =
             |s: &Setting| s.machine != Machine::Gpu64 || gpu.as_ref().is_some_and(|gpu| gpu.report.doubles);
         for setting in matrix.settings().into_iter().filter(has) {
             let row = known.row(&setting, &reference)?;
-            done(&row);
+            let line = row.to_string();
             measured.rows.push(row);
+            done(&measured, &line)?;
         }
-        measured.references.push(reference);
     }
     Ok(measured)
 }
@@ -368,5 +374,42 @@ impl std::fmt::Display for Row {
         let Setting { machine, element, mesh, safety } = self.setting;
         let (problem, machine, element) = (self.problem.name(), machine.name(), element_name(element));
         write!(f, "{problem:9} {machine:9} {element:17} x{mesh} safety {safety}: error {:.2e}", self.error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The wave on its coarsest mesh.
+    fn matrix() -> Matrix {
+        Matrix {
+            problems: vec![Problem::Wave],
+            elements: vec![Element::Q1p0],
+            meshes: vec![1],
+            reference: 1,
+            safeties: vec![0.9],
+            split: 0,
+            gpu: 0,
+            threads: 1,
+        }
+    }
+
+    #[test]
+    fn rows_are_handed_out_as_they_come() {
+        let mut seen = Vec::new();
+        let note = |so_far: &Measured, _: &dyn std::fmt::Display| {
+            seen.push((so_far.references.len(), so_far.rows.len()));
+            Ok(())
+        };
+        let measured = measure(&matrix(), note).unwrap();
+        assert_eq!(seen, [(1, 1), (1, 2)], "double and single precision");
+        assert_eq!(measured.rows.len(), 2);
+    }
+
+    #[test]
+    fn whoever_cannot_keep_a_row_ends_the_measurement() {
+        let full = |_: &Measured, _: &dyn std::fmt::Display| Err(Error::NoAdapter { detail: "full".into() });
+        assert!(measure(&matrix(), full).is_err_and(|e| e.to_string().contains("full")));
     }
 }
