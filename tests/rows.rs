@@ -167,6 +167,36 @@ fn the_motion_does_not_depend_on_the_numbering() {
     assert!(error < 1e-10, "{error:e}");
 }
 
+/// Lanes behind the last node of a line carry no force: what the internal force has done is what the kinetic energy has
+/// gained. Two blocks whose lines, of 11 and of 10 nodes, fill as many vectors, so that one could take the other's slots.
+#[test]
+fn lanes_without_a_node_do_no_work() {
+    let scene = block([0.1, 0.03, 0.03], [20, 6, 6]);
+    let model = model(&scene, |mesh| {
+        let mut e = 0..;
+        mesh.hexes.retain(|_| e.next().is_some_and(|e| e % 20 != 10));
+    });
+    assert_eq!(model.element_count(), 19 * 36);
+    let mut random = Random::new(11);
+    let v: Vec<[f64; 3]> = (0..model.node_count()).map(|_| random.vector()).collect();
+    let square = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>();
+    let given: f64 = v.iter().zip(&model.mass).map(|(v, m)| 0.5 * m * square(v)).sum();
+    for level in [Level::Portable, Level::Avx2, Level::Avx512].into_iter().filter(|l| *l <= Level::detect()) {
+        for threads in [1, 2] {
+            let mut driver = Driver::new(&model, &scene);
+            driver.engine = engine_at(&model, &scene, Precision::F64, threads, level);
+            driver.engine.set_velocity(&v, &[0.0; 6]).unwrap();
+            driver.advance(std::iter::repeat_n(1e-6, 50)).unwrap();
+            let window = driver.sample(1e-6);
+            let done = window.works.internal + window.works.viscous;
+            let error = (window.kinetic - given - done) / given;
+            // Round-off of 50 steps' sums over 800 nodes.
+            assert!(error.abs() < 1e-12, "{level:?} x{threads}: {error:e}");
+            assert!(done.abs() > 1e-3 * given, "{level:?} x{threads}: {done} of {given}");
+        }
+    }
+}
+
 /// What a window says of its steps is what it says of its nodes.
 #[test]
 fn contact_of_every_step_adds_up_to_the_windows() {
