@@ -10,7 +10,7 @@ use crate::render::canvas::{Anchor, Canvas, Fonts, Weight};
 use crate::scene::Element;
 
 const PANEL: [f64; 2] = [560.0, 430.0];
-const HEAD: f64 = 84.0;
+const HEAD: f64 = 124.0;
 const INK: [u8; 3] = [40, 44, 52];
 const PALE: [u8; 3] = [222, 225, 230];
 const UNKNOWN: [u8; 3] = [244, 240, 230];
@@ -50,17 +50,20 @@ pub fn picture(measured: &Measured) -> Result<RgbaImage> {
 
 fn legend(canvas: &mut Canvas, rows: &[Row]) {
     canvas.text("Wall time against error", [24.0, 28.0], Anchor::Left, Weight::Medium, 20.0, INK, 0.0);
-    let mut x = 24.0;
+    // A line each for what colours, marks and lines are: a picture of one panel has room for them.
+    let (left, [elements, engines, lines]) = (24.0, [58.0, 80.0, 102.0]);
+    let mut x = left;
     let names = [
         ("q1p0", Element::Q1p0),
         ("uniform-gradient", Element::UniformGradient { hourglass: 0.15 }),
         ("full", Element::Full),
     ];
     for (name, element) in names {
-        canvas.disc([x + 6.0, 58.0], 6.0, colour(element), None);
-        canvas.text(name, [x + 18.0, 58.0], Anchor::Left, Weight::Regular, 14.0, INK, 0.0);
+        canvas.disc([x + 6.0, elements], 6.0, colour(element), None);
+        canvas.text(name, [x + 18.0, elements], Anchor::Left, Weight::Regular, 14.0, INK, 0.0);
         x += 40.0 + 8.0 * name.len() as f64;
     }
+    x = left;
     let machines = [
         ("f64", Machine::Cpu64),
         ("f32", Machine::Cpu32),
@@ -70,19 +73,21 @@ fn legend(canvas: &mut Canvas, rows: &[Row]) {
     ];
     for (name, machine) in machines.into_iter().filter(|(_, m)| rows.iter().any(|r| r.setting.machine == *m))
     {
-        mark(canvas, [x + 6.0, 58.0], machine, INK);
-        canvas.text(name, [x + 18.0, 58.0], Anchor::Left, Weight::Regular, 14.0, INK, 0.0);
+        mark(canvas, [x + 6.0, engines], machine, INK);
+        canvas.text(name, [x + 18.0, engines], Anchor::Left, Weight::Regular, 14.0, INK, 0.0);
         x += 34.0 + 8.0 * name.len() as f64;
     }
-    canvas.line(&[[x, 58.0], [x + 24.0, 58.0]], 1.5, INK, Some([4.0, 3.0]));
-    canvas.text("fastest for its error", [x + 32.0, 58.0], Anchor::Left, Weight::Regular, 14.0, INK, 0.0);
+    x = left;
+    canvas.line(&[[x, lines], [x + 24.0, lines]], 1.5, INK, Some([4.0, 3.0]));
+    canvas.text("fastest for its error", [x + 32.0, lines], Anchor::Left, Weight::Regular, 14.0, INK, 0.0);
     x += 32.0 + 8.0 * 22.0;
-    let box_at =
-        |r: [f64; 2]| [[x, 58.0 - r[1]], [x + r[0], 58.0 - r[1]], [x + r[0], 58.0 + r[1]], [x, 58.0 + r[1]]];
+    let box_at = |r: [f64; 2]| {
+        [[x, lines - r[1]], [x + r[0], lines - r[1]], [x + r[0], lines + r[1]], [x, lines + r[1]]]
+    };
     canvas.polygon(&box_at([24.0, 7.0]), UNKNOWN, None);
     canvas.text(
         "within the reference's own error",
-        [x + 32.0, 58.0],
+        [x + 32.0, lines],
         Anchor::Left,
         Weight::Regular,
         14.0,
