@@ -24,13 +24,7 @@ impl Clock {
     pub fn run(engine: &mut dyn Engine, model: &Model, roll: &Roll, seconds: f64) -> Result<Clock> {
         roll.start(engine, model)?;
         let mut taken = 0;
-        let mut advance = |count: usize| -> Result<f64> {
-            let steps = roll.steps(taken, count);
-            let begun = Instant::now();
-            engine.advance(&steps)?;
-            taken += count as u64;
-            Ok(begun.elapsed().as_secs_f64() / count as f64)
-        };
+        let mut advance = |count: usize| roll.timed(engine, &mut taken, count);
         // The first steps also build what an engine builds on first use.
         advance(2)?;
         let begun = Instant::now();

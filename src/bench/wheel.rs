@@ -7,6 +7,7 @@ use crate::physics::rim::{self, Coordinates};
 use crate::run::stability;
 use crate::scene::Scene;
 use glam::DVec3;
+use std::time::Instant;
 
 /// The straight run, as shipped.
 const SCENE: &str = include_str!("../../scenes/lat100_straight.toml");
@@ -85,6 +86,15 @@ impl Roll {
             load: [0.0; 6],
         };
         (taken..taken + count as u64).map(step).collect()
+    }
+
+    /// Takes `count` steps after the `taken` that have been; seconds a step.
+    pub fn timed(&self, engine: &mut dyn Engine, taken: &mut u64, count: usize) -> Result<f64> {
+        let steps = self.steps(*taken, count);
+        let begun = Instant::now();
+        engine.advance(&steps)?;
+        *taken += count as u64;
+        Ok(begun.elapsed().as_secs_f64() / count as f64)
     }
 
     /// Steps of 0.1 s, the length of the paper's run: no row is timed for longer.

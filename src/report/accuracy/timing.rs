@@ -76,13 +76,7 @@ fn step(problem: Problem, setting: &Setting, threads: usize, gpu: Option<&Gpu>) 
     let roll = Roll::new(&model)?;
     roll.start(&mut *engine, &model)?;
     let mut taken = 0;
-    let mut advance = |count: usize| -> Result<f64> {
-        let steps = roll.steps(taken, count);
-        let begun = Instant::now();
-        engine.advance(&steps)?;
-        taken += count as u64;
-        Ok(begun.elapsed().as_secs_f64() / count as f64)
-    };
+    let mut advance = |count: usize| roll.timed(&mut *engine, &mut taken, count);
     let each = advance(FOOTPRINT)?;
     let count = ((BATCH / each) as usize).clamp(3, roll.whole_run() as usize / BATCHES);
     Ok(median((0..BATCHES).map(|_| advance(count)).collect::<Result<Vec<f64>>>()?))
