@@ -70,8 +70,10 @@ fn choices() -> Vec<Choice> {
                             rim,
                             precision,
                             // Both, each with everything else.
+                            extruded: gravity,
                             shared_classes: gravity,
                             lattice: damping,
+                            joined: damping && gravity,
                         };
                         all.push(choice);
                     }
@@ -206,23 +208,29 @@ fn names(module: &Module) -> BTreeSet<String> {
 
 /// What a kernel may bring without using it: files that hold the few functions of one subject, of which a kernel
 /// calls some. Everything else that is composed must be reached.
-const SHARED: [(&str, &[&str]); 24] = [
+const SHARED: [(&str, &[&str]); 30] = [
     // Element passes: the force pass needs the stress and not the energy, the energy pass the other way round;
     // elements with points need the Gauss lines, the uniform-gradient one does not.
-    ("lib/hex8", &["interpolate", "gradients", "half_edges", "scatter", "cofactor"]),
-    ("lib/points", &["point", "internal_forces", "point_energy", "element_energy", "volume"]),
-    ("lib/invariants_i1", &["force_matrix"]),
-    ("lib/invariants_i2", &["force_matrix"]),
-    ("element/q1p0", &["mean_pressure", "point_pressure", "mean_U", "point_U"]),
+    ("lib/hex8", &["interpolate", "gradients", "edges", "scatter", "cofactor", "FAR", "WEIGHT"]),
+    ("lib/point_energy", &["point_energy", "element_energy"]),
+    ("lib/symmetric", &["gram", "full"]),
+    ("lib/invariants_i1", &["second_piola", "times"]),
+    ("lib/invariants_i2", &["second_piola", "times"]),
+    ("metric/identity", &["around"]),
+    ("metric/plane", &["around"]),
+    ("metric/any", &["around"]),
+    ("element/q1p0", &["det_at", "volume", "mean_pressure", "point_pressure", "mean_U", "point_U"]),
     ("element/full", &["mean_pressure", "point_pressure", "mean_U", "point_U"]),
-    ("element/uniform_gradient", &["corner_forces", "less_outer", "mean_stress", "element_energy"]),
+    ("element/uniform_gradient", &["corner_forces", "less_outer"]),
+    ("element/uniform_gradient_extruded", &["corner_forces"]),
+    ("lib/mean", &["mean_stress", "element_energy"]),
     ("material/neo_hookean", &["psi", "first_piola", "U", "dU"]),
     ("material/mooney_rivlin", &["psi", "first_piola", "U", "dU"]),
     ("material/mooney_rivlin_eq4", &["psi", "first_piola", "U", "dU"]),
     // Corner positions come as half edges (points) or as offsets (uniform gradient).
-    ("position/plain", &["half_edges_of", "offsets_of"]),
-    ("position/resident", &["half_edges_of", "offsets_of"]),
-    ("position/pairs", &["half_edges_of", "offsets_of", "sum_pair"]),
+    ("position/plain", &["edges_of", "offsets_of"]),
+    ("position/resident", &["edges_of", "offsets_of"]),
+    ("position/pairs", &["edges_of", "offsets_of", "sum_pair"]),
     // Elements are named where one may fail, or have classes of their own.
     ("lib/chains", &["element_entry"]),
     ("chain/table", &["element_at", "chain_elements"]),
@@ -231,7 +239,7 @@ const SHARED: [(&str, &[&str]); 24] = [
     ("lib/alone", &["of_nodes", "of_surface", "of_rim", "of_chains", "of_flags"]),
     ("lib/member", &["of_surface", "of_rim", "of_chains", "of_contact"]),
     // Every kernel but the resident one folds its index.
-    ("lib/index", &["thread_index"]),
+    ("lib/index", &["thread_index", "group_index"]),
     // The force pass alone looks for NaN.
     ("real/single", &["is_finite"]),
     ("real/double", &["is_finite"]),
@@ -506,8 +514,16 @@ fn the_largest_kernel_binds_what_adapters_are_asked_for() {
 fn a_folded_dispatch_meets_every_item_once() {
     // Sizes around every fold, with the index that shaders/lib/index.wgsl computes.
     for most_groups in [1, 2, 3, 7] {
-        let counts =
-            Counts { elements: 0, nodes: 0, surface: 0, rim: 0, chain_groups: 0, slots: 0, most_groups };
+        let counts = Counts {
+            elements: 0,
+            nodes: 0,
+            surface: 0,
+            rim: 0,
+            chain_groups: 0,
+            slots: 0,
+            stored_slots: 0,
+            most_groups,
+        };
         for items in (1..400).chain([64 * 63, 64 * 64, 64 * 65 + 1]) {
             let [columns, rows, depth] = counts.groups(items);
             if rows > most_groups {
@@ -533,8 +549,16 @@ fn a_folded_dispatch_meets_every_item_once() {
 
 #[test]
 fn a_dispatch_beyond_one_dimension_is_folded() {
-    let counts =
-        Counts { elements: 0, nodes: 0, surface: 0, rim: 0, chain_groups: 0, slots: 0, most_groups: 65_535 };
+    let counts = Counts {
+        elements: 0,
+        nodes: 0,
+        surface: 0,
+        rim: 0,
+        chain_groups: 0,
+        slots: 0,
+        stored_slots: 0,
+        most_groups: 65_535,
+    };
     let dimension = 65_535 * 64;
     assert_eq!(counts.groups(dimension), [65_535, 1, 1]);
     for items in [dimension + 1, 2 * dimension, 2 * dimension + 1, 100_000_000, u32::MAX as usize] {

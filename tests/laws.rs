@@ -9,22 +9,23 @@ use hexroll::physics::element::hex8;
 use hexroll::physics::material::{
     KelvinVoigt, Law as Material, MooneyRivlin, MooneyRivlinEq4, NeoHookean, Viscosity,
 };
-use hexroll::physics::tensor::{Mat3, Sym3, cofactor, det, dot};
+use hexroll::physics::tensor::{Identity, Mat3, axpy, cofactor, det, dot};
 use hexroll::scene::Law;
 
-const IDENTITY: Sym3<f64> = Sym3 { xx: 1.0, yy: 1.0, zz: 1.0, xy: 0.0, xz: 0.0, yz: 0.0 };
-
 fn energy_of<L: Material<f64>>(choice: &Law, F: &Mat3<f64>) -> f64 {
-    let (law, k, j) =
-        (L::new(choice), hex8::kinematics::<f64, MooneyRivlin<f64>, false>(F, &IDENTITY), det(F));
+    let k = hex8::invariants::<f64, MooneyRivlin<f64>, _>(&hex8::gram(F), &Identity);
+    let (law, j) = (L::new(choice), det(F));
     law.psi(k.i1, k.i2, j) + law.U(j)
 }
 
 /// Columns of P, by the element's own assembly of it.
 fn piola_of<L: Material<f64>>(choice: &Law, F: &Mat3<f64>) -> Mat3<f64> {
-    let (law, k, j) = (L::new(choice), hex8::kinematics::<f64, L, false>(F, &IDENTITY), det(F));
+    let k = hex8::invariants::<f64, L, _>(&hex8::gram(F), &Identity);
+    let (law, j, cof) = (L::new(choice), det(F), cofactor(F));
     let d = law.first_piola(k.i1, k.i2, j);
-    hex8::force_matrix::<f64, L>(&k, &d, law.dU(j), &cofactor(F), 1.0, 1.0, None)
+    let s = hex8::second_piola::<f64, L, _>(&k, &d, &Identity, 1.0);
+    let p = hex8::times_second_piola::<f64, L>(F, &s);
+    std::array::from_fn(|c| axpy(cof[c], d.wj + law.dU(j), p[c]))
 }
 
 fn energy(choice: &Law, F: &Mat3<f64>) -> f64 {

@@ -12,9 +12,11 @@ fn sum_step(group: u32, lane: u32, contact: vec4r) {
     workgroupBarrier();
     if lane < 128u {
         // Component lane % 4 of every 32nd thread; only this thread reads or writes these words.
+        var sum = held_forces[lane];
         for (var k = lane + 128u; k < 4u * threads; k += 128u) {
-            held_forces[lane] += held_forces[k];
+            sum += held_forces[k];
         }
+        held_forces[lane] = sum;
     }
     workgroupBarrier();
     if lane < 4u {

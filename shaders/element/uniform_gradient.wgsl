@@ -1,8 +1,5 @@
 // Volume-averaged gradients and hourglass stiffness; twin of src/physics/element/uniform_gradient.rs.
 
-// Differences of a field to corner 0, and what follows from them.
-struct Modes { f: mat3x3r, h0: vec3r, h1: vec3r, h2: vec3r, h3: vec3r }
-
 fn outer_sum(f: mat3x3r, u: vec3r, b: vec4r) -> mat3x3r {
     return mat3x3r(f[0] + u * b.x, f[1] + u * b.y, f[2] + u * b.z);
 }
@@ -44,24 +41,4 @@ fn corner_forces(stress: mat3x3r, r: Modes, shape: u32) -> Corners {
         p * classes[shape].gradient[5].xyz + (-r.h0 + r.h1 - r.h2 - r.h3),
         p * classes[shape].gradient[6].xyz + (r.h0 + r.h1 + r.h2 + r.h3),
         p * classes[shape].gradient[7].xyz + (r.h0 - r.h1 - r.h2 - r.h3));
-}
-
-struct MeanStress { p: mat3x3r, j: real }
-
-fn mean_stress(f: mat3x3r) -> MeanStress {
-    let cof = cofactor(f);
-    let j = dot(f[0], cof[0]);
-    let k = kinematics(f, vec3r(1.0), vec3r(0.0));
-    return MeanStress(force_matrix(f, k, first_piola(k.i1, k.i2, j), dU(j), cof, 1.0), j);
-}
-
-fn element_energy(low: Face, high: Face, shape: u32) -> vec3r {
-    let m = modes(offsets_of(low, high), shape);
-    let j = determinant(m.f);
-    let k = kinematics(m.f, vec3r(1.0), vec3r(0.0));
-    let q2 = dot(m.h0, m.h0) + dot(m.h1, m.h1) + dot(m.h2, m.h2) + dot(m.h3, m.h3);
-    return vec3r(
-        classes[shape].volume * (psi(k.i1, k.i2, j) + U(j)),
-        0.5 * classes[shape].hourglass_stiffness * q2,
-        j);
 }

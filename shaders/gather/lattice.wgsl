@@ -22,9 +22,12 @@ fn of_face(i: u32, j: u32, first: u32, stride: u32) -> vec3r {
     let has_right = i < lattice_columns;
     let has_low = j > 0u;
     let has_high = j + 1u < lattice_rows;
+    // What the left columns have not passed on.
+    let high_left = has_left && !(has_right && is_joined(i, j * lattice_columns + i));
+    let low_left = has_left && !(has_right && is_joined(i, (j - 1u) * lattice_columns + i));
     return of_column(has_right && has_high, i, j, first, stride)
-        + of_column(has_left && has_high, left, j, first + 64u, stride)
-        + of_column(has_left && has_low, left, j - 1u, first + 128u, stride)
+        + of_column(high_left && has_high, left, j, first + 64u, stride)
+        + of_column(low_left && has_low, left, j - 1u, first + 128u, stride)
         + of_column(has_right && has_low, i, j - 1u, first + 192u, stride);
 }
 

@@ -5,28 +5,21 @@
 
 const NONE: u32 = 0xffffffffu;
 
-fn store(at: u32, f: Shared) {
-    slots[at] = vec4r(f.a, 0.0);
-    slots[at + CORNER] = vec4r(f.b, 0.0);
-    slots[at + 2u * CORNER] = vec4r(f.c, 0.0);
-    slots[at + 3u * CORNER] = vec4r(f.d, 0.0);
-}
-
 @compute @workgroup_size(64)
 fn main(
     @builtin(workgroup_id) group: vec3u,
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let thread = thread_index(group, groups, lane);
-    if thread / 64u >= arrayLength(&chain_groups) {
+    let number = group_index(group, groups);
+    if number >= arrayLength(&chain_groups) {
         return;
     }
-    let chains = chain_groups[thread / 64u];
-    if lane >= chains.w {
-        return;
-    }
-    let chain = Chain(thread / 64u, lane, chains.x + lane);
+    let chains = chain_groups[number];
+    // Lanes without a chain go along the last one and keep nothing.
+    let there = lane < chains.w;
+    let place = min(lane, chains.w - 1u);
+    let chain = Chain(number, place, chains.x + place);
     var at = chain.at;
     var nodes = first_face(chain);
     var low = load_end(nodes);
@@ -39,7 +32,7 @@ fn main(
         let high = load_end(nodes);
         let result = element_force(low, high, class_at(chains, level, at));
         let f = result.f;
-        store(at, Shared(held.a + f.a0, held.b + f.a1, held.c + f.a2, held.d + f.a3));
+        store(at, chain, lane, chains.w, level, Shared(held.a + f.a0, held.b + f.a1, held.c + f.a2, held.d + f.a3));
         held = Shared(f.a4, f.a5, f.a6, f.a7);
         power += viscous_power(result);
         let sound = is_sound(result);
@@ -50,8 +43,11 @@ fn main(
         low = high;
         at += FACE;
     }
-    store(at, held);
-    book_viscous(thread, power);
+    store(at, chain, lane, chains.w, chains.z, held);
+    if !there {
+        return;
+    }
+    book_viscous(number * 64u + lane, power);
     if failed != NONE {
         report(element_at(chain, failed), finite);
     }

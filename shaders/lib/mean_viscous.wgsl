@@ -18,11 +18,11 @@ fn element_force(low: End, high: End, shape: u32) -> ElementForce {
     let m = modes(offsets_of(low.x, high.x), shape);
     let d = modes(rate_offsets(rates_of(low.v, high.v)), shape);
     let s = mean_stress(m.f);
-    let v = viscous_stress(m.f, d.f);
+    let v = viscous_stress(d.f, s.cof, s.j, 1.0);
     let k = classes[shape].hourglass_stiffness;
     let c = classes[shape].hourglass_viscosity;
     let r = Modes(m.f, k * m.h0 + c * d.h0, k * m.h1 + c * d.h1, k * m.h2 + c * d.h2, k * m.h3 + c * d.h3);
     let q2 = dot(d.h0, d.h0) + dot(d.h1, d.h1) + dot(d.h2, d.h2) + dot(d.h3, d.h3);
     let power = v.power * classes[shape].volume + c * q2;
-    return ElementForce(corner_forces(s.p + v.g, r, shape), s.j, power);
+    return ElementForce(corner_forces(s.p + v.stress * s.cof, r, shape), s.j, power);
 }

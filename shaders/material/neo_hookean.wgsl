@@ -11,8 +11,9 @@ fn psi(i1: real, i2: real, j: real) -> real {
 // (dW/dI1, dW/dI2, dW/dJ)
 fn first_piola(i1: real, i2: real, j: real) -> vec3r {
     let r = recip_cbrt(j);
-    let w1 = 0.5 * g1 * r * r;
-    return vec3r(w1, 0.0, -(w1 * i1 * (r * r * r)) * 0.6666666666666667);
+    let r2 = r * r;
+    let w1 = 0.5 * g1 * r2;
+    return vec3r(w1, 0.0, w1 * i1 * (r2 * r) * -0.6666666666666667);
 }
 
 fn U(j: real) -> real {

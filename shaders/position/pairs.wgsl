@@ -26,9 +26,9 @@ fn corners_of(low: Part, high: Part) -> Corners {
     return Corners(low.a, low.b, low.c, low.d, high.a, high.b, high.c, high.d);
 }
 
-fn half_edges_of(low: Face, high: Face) -> Columns {
-    let hi = half_edges(corners_of(low.hi, high.hi));
-    let lo = half_edges(corners_of(low.lo, high.lo));
+fn edges_of(low: Face, high: Face) -> Columns {
+    let hi = edges(corners_of(low.hi, high.hi));
+    let lo = edges(corners_of(low.lo, high.lo));
     return Columns(sum_pair(hi.xi, lo.xi), sum_pair(hi.eta, lo.eta), sum_pair(hi.zeta, lo.zeta));
 }
 

@@ -10,8 +10,8 @@ fn load_face(nodes: vec4u) -> Face {
         positions_in[nodes.x].xyz, positions_in[nodes.y].xyz, positions_in[nodes.z].xyz, positions_in[nodes.w].xyz);
 }
 
-fn half_edges_of(low: Face, high: Face) -> Columns {
-    return half_edges(Corners(low.a, low.b, low.c, low.d, high.a, high.b, high.c, high.d));
+fn edges_of(low: Face, high: Face) -> Columns {
+    return edges(Corners(low.a, low.b, low.c, low.d, high.a, high.b, high.c, high.d));
 }
 
 // Differences to corner 0.

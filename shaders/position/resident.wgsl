@@ -61,8 +61,8 @@ fn load_face(nodes: vec4u) -> Face {
     return Face(held_position(nodes.x), held_position(nodes.y), held_position(nodes.z), held_position(nodes.w));
 }
 
-fn half_edges_of(low: Face, high: Face) -> Columns {
-    return half_edges(Corners(low.a, low.b, low.c, low.d, high.a, high.b, high.c, high.d));
+fn edges_of(low: Face, high: Face) -> Columns {
+    return edges(Corners(low.a, low.b, low.c, low.d, high.a, high.b, high.c, high.d));
 }
 
 // Differences to corner 0.

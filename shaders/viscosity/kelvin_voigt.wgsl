@@ -2,20 +2,18 @@
 
 override eta: real;
 
-// Force matrix sigma_v cof(A) and power sigma_v : L det A.
-struct Viscous { g: mat3x3r, power: real }
+// weight sigma_v and the power weight sigma_v : L det A.
+struct Viscous { stress: mat3x3r, power: real }
 
-fn viscous_stress(a: mat3x3r, a_dot: mat3x3r) -> Viscous {
-    let cof = cofactor(a);
-    let det_a = dot(a[0], cof[0]);
-    let l = a_dot * transpose(cof) * (1.0 / det_a);
+fn viscous_stress(a_dot: mat3x3r, cof: mat3x3r, det_a: real, weight: real) -> Viscous {
+    // L det A, whose factor goes to eta.
+    let l = a_dot * transpose(cof);
+    let factor = eta * weight / det_a;
     let trace = l[0][0] + l[1][1] + l[2][2];
     let mean = 0.6666666666666667 * trace;
-    var sigma = l + transpose(l);
-    sigma[0][0] -= mean;
-    sigma[1][1] -= mean;
-    sigma[2][2] -= mean;
-    sigma = sigma * eta;
-    let power = dot(sigma[0], l[0]) + dot(sigma[1], l[1]) + dot(sigma[2], l[2]);
-    return Viscous(sigma * cof, power * det_a);
+    let off = vec3r(l[0][1] + l[1][0], l[0][2] + l[2][0], l[1][2] + l[2][1]);
+    let s = factor * off;
+    let d = factor * vec3r(2.0 * l[0][0] - mean, 2.0 * l[1][1] - mean, 2.0 * l[2][2] - mean);
+    let power = d.x * l[0][0] + d.y * l[1][1] + d.z * l[2][2] + dot(s, off);
+    return Viscous(mat3x3r(vec3r(d.x, s.x, s.y), vec3r(s.x, d.y, s.z), vec3r(s.y, s.z, d.z)), power);
 }

@@ -5,7 +5,7 @@ use super::chains::{Chains, SHARED_CLASSES};
 use super::layout::{self, MeanClass, PointClass, PointGeometry, Real, Step, Wgsl, encode};
 use crate::error::{Error, Result};
 use crate::model::Model;
-use crate::physics::element::{Class, hex8};
+use crate::physics::element::Class;
 use crate::scene::Element;
 use bytemuck::Pod;
 use std::collections::HashMap;
@@ -24,13 +24,20 @@ pub struct Slice {
     buffer: wgpu::Buffer,
     offset: u64,
     size: u64,
+    /// Share of its bytes that a pass over all of it reads or writes.
+    share: f64,
 }
 
 impl Slice {
     /// All of a buffer.
     pub fn whole(buffer: wgpu::Buffer) -> Slice {
         let size = buffer.size();
-        Slice { buffer, offset: 0, size }
+        Slice { buffer, offset: 0, size, share: 1.0 }
+    }
+
+    /// Bytes that a pass over all of it reads or writes.
+    pub fn used(&self) -> u64 {
+        (self.share * self.size as f64) as u64
     }
 
     /// Bytes.
@@ -91,6 +98,11 @@ impl Buffers {
         self.map.values().map(Slice::size).sum()
     }
 
+    /// Says that passes leave all but a share of an array alone.
+    pub fn use_share(&mut self, name: &'static str, share: f64) {
+        self.map.get_mut(name).unwrap_or_else(|| panic!("no buffer is called {name}")).share = share;
+    }
+
     /// The same with the parts of the body number `body` of those that share them.
     pub fn of_body(&self, body: usize) -> Buffers {
         let part = |(name, slice): (&&'static str, &Slice)| {
@@ -128,7 +140,7 @@ impl Buffers {
             usage: usage(),
             mapped_at_creation: false,
         });
-        self.map.insert(name, Slice { buffer, offset: 0, size });
+        self.map.insert(name, Slice { buffer, offset: 0, size, share: 1.0 });
         self.strides.insert(name, stride);
     }
 
@@ -209,22 +221,25 @@ pub fn shared_classes_size(element: Element, real: Real) -> usize {
 
 fn point_class(class: &Class<f64>) -> PointClass {
     let points = std::array::from_fn(|q| {
-        // The shaders' element coordinates run from -1 to 1.
-        let (m, unit) = (class.metric[q], hex8::TO_UNIT * hex8::TO_UNIT);
+        let m = class.metric[q];
         PointGeometry {
-            metric: [m.xx, m.yy, m.zz].map(|v| v * unit),
-            det_j0: class.det_j0[q],
-            metric_off: [m.xy, m.xz, m.yz].map(|v| v * unit),
-            inverse_det_j0: 1.0 / class.det_j0[q],
+            metric: [m.xx, m.yy, m.zz],
+            volume: class.det_j0[q],
+            metric_off: [m.xy, m.xz, m.yz],
+            inverse_det_j0: class.inverse_det_j0[q],
         }
     });
     PointClass { points, volume: class.volume, inverse_volume: class.inverse_volume }
 }
 
 fn mean_class(class: &Class<f64>) -> MeanClass {
+    let e = class.extruded;
     MeanClass {
         gradient: class.gradient.map(vec4),
         gamma_x: class.gamma_x.map(vec4),
+        in_plane: [e[0], e[1], e[2], e[3]],
+        along: [e[4], e[5], e[6], 0.0],
+        bend: [e[7], e[8], 0.0, 0.0],
         volume: class.volume,
         inverse_volume: class.inverse_volume,
         hourglass_stiffness: class.hourglass_stiffness,

@@ -16,13 +16,19 @@ pub const SHARED_CLASSES: usize = 48;
 /// Threads that keep a large GPU busy: where there are fewer elements than that times the length, chains are shorter.
 const BUSY: usize = 65_536;
 
-/// Elements of which a mesh may fit into one work group's memory: there a thread has a chain each.
+/// Elements of which a mesh may fit into one work group's memory, and how many threads such a group has to share them.
 const RESIDENT: usize = 2048;
+const THREADS: usize = super::resident::THREADS;
 
 /// Elements a chain has at most: long ones move less memory, short ones keep more threads busy. A software adapter's
-/// threads are lanes of a few processors, so there the longest are best.
+/// threads are lanes of a few processors, so there the longest are best. In one work group chains are as long as its
+/// threads ask: a wheel of 880 elements in chains of 5 would keep half of them waiting.
 pub fn longest(software: bool, elements: usize) -> usize {
-    if software || elements <= RESIDENT { 16 } else { (elements / BUSY).clamp(1, 8) }
+    match elements {
+        _ if software => 16,
+        0..=RESIDENT => elements.div_ceil(THREADS).clamp(1, 16),
+        _ => (elements / BUSY).clamp(1, 8),
+    }
 }
 
 /// Work groups of 64 chains of one length. A chain's elements share faces: corners 4 to 7 of one are corners 0 to 3 of
@@ -107,6 +113,26 @@ impl Chains {
     /// Slots of all groups, those of missing chains included.
     pub fn slot_count(&self) -> usize {
         self.nodes.len()
+    }
+
+    /// Slots that are filled; `joined`: where a chain's neighbour in its group and row has its forces on the corners between them
+    /// (shaders/slots/joined.wgsl), only by that one.
+    pub fn stored_slots(&self, joined: bool) -> usize {
+        let row = self.lattice.filter(|_| joined).map(|lattice| (lattice.elements[0], lattice.columns()));
+        let mut first = 0;
+        let mut stored = 0;
+        for &[_, _, length, chains] in &self.groups {
+            let chains = chains as usize;
+            // Chains with one on their left.
+            let passed =
+                row.map_or(0, |(row, _)| (first + 1..first + chains).filter(|c| c % row > 0).count());
+            stored += (length as usize + 1) * (CORNERS * chains - 2 * passed);
+            first += chains;
+            if row.is_some_and(|(_, layer)| first == layer) {
+                first = 0;
+            }
+        }
+        stored
     }
 
     /// Appends a group of chains of one length; `used` gains (node, slot).
@@ -261,5 +287,22 @@ mod tests {
         assert!(chains.shared_classes);
         assert_eq!(chains.groups.len(), 16);
         assert_eq!(chains.slot_count(), 5 * 4 * 1024);
+        assert_eq!(chains.stored_slots(false), 5 * 4 * 1024);
+        // A row of 64 is a group: the first chain of each has none on its left.
+        assert_eq!(chains.stored_slots(true), 5 * 16 * (2 * 64 + 2));
+    }
+
+    /// Rows of 10, of which six begin in the first group and one in the second, whose first chain is in a row's middle; two layers of
+    /// chains, of four faces and of three.
+    #[test]
+    fn rows_that_end_within_a_group_store_both_sides() {
+        let chains = Chains::new(&model([10, 5, 7]), 3);
+        assert_eq!(
+            chains.groups.iter().map(|g| (g[2], g[3])).collect::<Vec<_>>(),
+            [(3, 64), (3, 6), (2, 64), (2, 6)]
+        );
+        assert_eq!(chains.stored_slots(false), (4 + 3) * 4 * 70);
+        // Chains without one on their left: seven that begin a row and the first of the second group.
+        assert_eq!(chains.stored_slots(true), (4 + 3) * (2 * 70 + 2 * 8));
     }
 }

@@ -43,6 +43,7 @@ shaders!(
     "element/full",
     "element/q1p0",
     "element/uniform_gradient",
+    "element/uniform_gradient_extruded",
     "friction/coulomb",
     "friction/pressure_velocity",
     "friction/stribeck",
@@ -64,6 +65,8 @@ shaders!(
     "kernels/rim",
     "kernels/surface_state",
     "lib/chains",
+    "lib/coupling_any",
+    "lib/coupling_plane",
     "lib/gravity",
     "lib/gravity_none",
     "lib/element_report",
@@ -76,18 +79,24 @@ shaders!(
     "lib/roles",
     "lib/invariants_i1",
     "lib/invariants_i2",
+    "lib/mean",
     "lib/mean_elastic",
     "lib/mean_viscous",
     "lib/move_node",
     "lib/nodes",
+    "lib/point_energy",
     "lib/points",
     "lib/points_elastic",
     "lib/points_viscous",
+    "lib/symmetric",
     "lib/take_step",
     "lib/two_sum",
     "material/mooney_rivlin",
     "material/mooney_rivlin_eq4",
     "material/neo_hookean",
+    "metric/any",
+    "metric/identity",
+    "metric/plane",
     "nodes/all",
     "nodes/boundary",
     "nodes/interior",
@@ -116,6 +125,10 @@ shaders!(
     "rim/prescribed",
     "road/plane",
     "road/velocity",
+    "slots/apart",
+    "slots/gather_apart",
+    "slots/gather_joined",
+    "slots/joined",
     "viscosity/book",
     "viscosity/book_none",
     "viscosity/kelvin_voigt",
@@ -168,10 +181,14 @@ pub struct Choice {
     pub damping: bool,
     pub rim: RimKind,
     pub precision: Precision,
+    /// Whether every element is a plane figure extruded along eta (`Class::is_extruded`).
+    pub extruded: bool,
     /// Few shape classes, the same along all chains of a work group.
     pub shared_classes: bool,
     /// Nodes and slots follow from numbers: a generator's mesh.
     pub lattice: bool,
+    /// In a lattice: chains side by side in a work group add up their forces before they store them.
+    pub joined: bool,
 }
 
 /// What a shader may use: what every adapter has, and doubles.
@@ -204,8 +221,10 @@ impl Choice {
         match kernel {
             Kernel::ElementForce => {
                 let rates: &[&str] = if self.viscous { &["viscosity/rates"] } else { &[] };
+                let store: &[&str] =
+                    if self.joined { &["slots/joined", "slots/gather_joined"] } else { &["slots/apart"] };
                 let own = &["kernels/element_force", "lib/alone", self.position()];
-                [own, rates, &self.element_parts(), &self.force_parts()].concat()
+                [own, store, rates, &self.element_parts(), &self.force_parts()].concat()
             }
             Kernel::ElementEnergy => {
                 [vec!["kernels/element_energy", self.position()], self.element_parts()].concat()
@@ -261,36 +280,53 @@ impl Choice {
         }
     }
 
+    fn needs_i2(&self) -> bool {
+        !matches!(self.law, Law::NeoHookean { .. })
+    }
+
     fn element_parts(&self) -> Vec<&'static str> {
         let recip_cbrt = self.of_real("real/recip_cbrt_single", "real/recip_cbrt_double");
         let law = match self.law {
-            Law::NeoHookean { .. } => {
-                vec!["material/neo_hookean", "lib/invariants_i1", recip_cbrt]
-            }
-            Law::MooneyRivlin { .. } => {
-                vec!["material/mooney_rivlin", "lib/invariants_i2", recip_cbrt]
-            }
-            Law::MooneyRivlinEq4 { .. } => {
-                [vec!["material/mooney_rivlin_eq4", "lib/invariants_i2"], self.logarithm()].concat()
-            }
+            Law::NeoHookean { .. } => vec!["material/neo_hookean", recip_cbrt],
+            Law::MooneyRivlin { .. } => vec!["material/mooney_rivlin", recip_cbrt],
+            Law::MooneyRivlinEq4 { .. } => [vec!["material/mooney_rivlin_eq4"], self.logarithm()].concat(),
         };
+        let invariants = if self.needs_i2() { "lib/invariants_i2" } else { "lib/invariants_i1" };
         let classes = if self.shared_classes { "class/shared" } else { "class/own" };
+        let metric = if self.extruded { "metric/plane" } else { "metric/any" };
         let element = match self.element {
-            Element::Q1p0 => vec!["element/q1p0", "lib/points"],
-            Element::Full => vec!["element/full", "lib/points"],
-            Element::UniformGradient { .. } => vec!["element/uniform_gradient"],
+            Element::Q1p0 => vec!["element/q1p0", "lib/point_energy", metric],
+            Element::Full => vec!["element/full", "lib/point_energy", metric],
+            Element::UniformGradient { .. } => {
+                let routine = "element/uniform_gradient";
+                let routine = if self.extruded { "element/uniform_gradient_extruded" } else { routine };
+                vec![routine, "lib/mean", "metric/identity"]
+            }
         };
         let chains: &[&str] = if self.lattice { &["chain/lattice", "lib/lattice"] } else { &["chain/table"] };
-        [element, vec!["lib/chains", classes, "lib/hex8", "lib/index"], chains.to_vec(), law].concat()
+        let shared = vec![invariants, "lib/symmetric", "lib/chains", classes, "lib/hex8", "lib/index"];
+        [element, shared, chains.to_vec(), law].concat()
+    }
+
+    /// Which columns of a lattice have their left neighbours' forces.
+    fn join_part(&self) -> &'static str {
+        if self.joined { "slots/gather_joined" } else { "slots/gather_apart" }
     }
 
     fn gather_parts(&self) -> Vec<&'static str> {
-        if self.lattice { vec!["gather/lattice", "lib/lattice"] } else { vec!["gather/table"] }
+        if !self.lattice {
+            return vec!["gather/table"];
+        }
+        vec!["gather/lattice", "lib/lattice", self.join_part()]
     }
 
     fn force_parts(&self) -> Vec<&'static str> {
         let mean = matches!(self.element, Element::UniformGradient { .. });
         let mut parts = vec!["lib/element_report"];
+        if !mean {
+            let plane = self.extruded && !self.needs_i2();
+            parts.extend(["lib/points", if plane { "lib/coupling_plane" } else { "lib/coupling_any" }]);
+        }
         parts.extend(match (mean, self.viscous) {
             (false, false) => vec!["lib/points_elastic", "viscosity/book_none"],
             (false, true) => vec!["lib/points_viscous", "viscosity/kelvin_voigt", "viscosity/book"],

@@ -80,8 +80,9 @@ pub struct Counts {
     pub rim: usize,
     /// Work groups of chains.
     pub chain_groups: usize,
-    /// Corner slots.
+    /// Corner slots, and those that the element pass fills.
     pub slots: usize,
+    pub stored_slots: usize,
     /// Work groups a dispatch may have in one dimension.
     pub most_groups: u32,
 }

@@ -258,16 +258,21 @@ shared! {
         slot: u32,
     }
 
-    /// Reference geometry at a Gauss point: M = J0^-1 J0^-T (diagonal; xy, xz, yz) and det J0.
-    PointGeometry { metric: [f64; 3], det_j0: f64, metric_off: [f64; 3], inverse_det_j0: f64 }
+    /// Reference geometry at a Gauss point: M = J0^-1 J0^-T (diagonal; xy, xz, yz), its volume and 1 / det J0.
+    PointGeometry { metric: [f64; 3], volume: f64, metric_off: [f64; 3], inverse_det_j0: f64 }
 
     /// Shape class of the elements with points.
     PointClass { points: [PointGeometry; 8], volume: f64, inverse_volume: f64 }
 
-    /// Shape class of the uniform-gradient element: b_a, Gamma_h . X, hourglass stiffness and viscosity.
+    /// Shape class of the uniform-gradient element: b_a, Gamma_h . X, hourglass stiffness and viscosity; of an extruded one
+    /// (`hex8::Class::extruded`) b . e1 and b . e3 by pattern (xi: 1, 3; zeta: 1, 3), b . e2 (eta, xi eta, eta zeta), and
+    /// Gamma . X of the pattern xi zeta (1, 3).
     MeanClass {
         gradient: [[f64; 4]; 8],
         gamma_x: [[f64; 4]; 4],
+        in_plane: [f64; 4],
+        along: [f64; 4],
+        bend: [f64; 4],
         volume: f64,
         inverse_volume: f64,
         hourglass_stiffness: f64,

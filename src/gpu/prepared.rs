@@ -54,8 +54,10 @@ impl Prepared {
             damping: false,
             rim: if model.mesh.rim.is_empty() { RimKind::None } else { RimKind::Prescribed },
             precision,
+            extruded: model.is_extruded(),
             shared_classes: chains.shared_classes,
             lattice: chains.lattice.is_some(),
+            joined: chains.lattice.is_some() && !gpu.report.software,
         };
         let counts = Counts {
             elements: model.element_count(),
@@ -64,6 +66,7 @@ impl Prepared {
             rim: model.mesh.rim.len(),
             chain_groups: chains.groups.len(),
             slots: chains.slot_count(),
+            stored_slots: chains.stored_slots(choice.joined),
             most_groups: gpu.report.workgroups,
         };
         let grain = frame::grain(&model.mesh);

@@ -5,9 +5,9 @@ use super::chains::{Chains, LANES};
 use super::layout::{Real, Step, Wgsl};
 use std::collections::HashSet;
 
-/// Threads of the work group: enough for a chain each on small wheels, few enough that each has all the registers it
-/// can use (on NVIDIA hardware 65,536 for 256 threads: 255 each).
-const THREADS: usize = 256;
+/// Threads of the work group, at most: enough for a chain each on small wheels, few enough that each has the registers it
+/// needs (on NVIDIA hardware 65,536 for 384 threads: 168 each; `benches/sass` counts them).
+pub const THREADS: usize = 384;
 
 /// Storage buffers that its kernel binds; on adapters with fewer the passes take all meshes.
 pub const RESIDENT_STORAGE_BUFFERS: u32 = 20;
@@ -36,15 +36,20 @@ impl Shape {
         Shape::within(threads, gpu.report.shared_memory as usize, chains, nodes)
     }
 
-    /// The same for work groups of at most so many threads and so many bytes.
+    /// The same for work groups of at most so many threads and so many bytes: as many threads as find chains that are apart.
     pub fn within(threads: usize, memory: usize, chains: &Chains, nodes: usize) -> Option<Shape> {
-        let threads = THREADS.min(threads) / LANES * LANES;
+        let most = THREADS.min(threads) / LANES;
+        (2..=most).rev().find_map(|groups| Shape::of_groups(groups, memory, chains, nodes))
+    }
+
+    /// With so many groups of chains at a time.
+    fn of_groups(groups: usize, memory: usize, chains: &Chains, nodes: usize) -> Option<Shape> {
+        let threads = groups * LANES;
         let words = (3 * nodes).max(4 * threads);
         let bytes = 2 * size_of::<f32>() * words + Step::size(Real::Single);
-        if threads < 2 * LANES || bytes > memory {
+        if bytes > memory {
             return None;
         }
-        let groups = threads / LANES;
         let rounds: Vec<&[[u32; 4]]> = chains.groups.chunks(groups).collect();
         let faces = chains.groups.iter().map(|g| g[2] as usize + 1).max()?;
         let apart = rounds.iter().all(|round| (0..faces).all(|face| is_apart(chains, round, face)));

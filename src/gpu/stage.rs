@@ -43,7 +43,7 @@ impl Bound {
     fn with<'b>(program: Program, group: wgpu::BindGroup, of: impl Fn(&str) -> &'b Slice) -> Bound {
         let mut touched = [0; 2];
         for b in program.bindings.iter().filter(|b| !SELDOM.contains(&&*b.name)) {
-            touched[usize::from(!BY_NODE.contains(&&*b.name))] += b.touched(of(&b.name).size());
+            touched[usize::from(!BY_NODE.contains(&&*b.name))] += b.touched(of(&b.name).used());
         }
         Bound { program, group, touched }
     }

@@ -154,6 +154,8 @@ pub fn create(gpu: &Gpu, tables: &[Table], choice: &Choice, counts: &Counts, bod
         parts("works", pair, nodes);
     }
     parts("slots", vector, counts.slots);
+    b.use_share("slots", counts.stored_slots as f64 / counts.slots as f64);
+    let mut parts = |name, each, count| b.parts(gpu, name, each, count, bodies);
     parts("energies", vector, threads);
     // Summed four by four.
     parts("viscous_work", scalar, if choice.viscous { threads } else { 4 });

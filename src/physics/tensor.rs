@@ -78,24 +78,16 @@ pub struct Sym3<S> {
 }
 
 impl<S: Scalar> Sym3<S> {
-    /// Columns of A M.
     #[inline(always)]
-    pub fn left_multiplied(&self, a: &Mat3<S>) -> Mat3<S> {
-        [
-            combined(a, self.xx, self.xy, self.xz),
-            combined(a, self.xy, self.yy, self.yz),
-            combined(a, self.xz, self.yz, self.zz),
-        ]
+    pub fn zero() -> Self {
+        let o = S::zero();
+        Sym3 { xx: o, yy: o, zz: o, xy: o, xz: o, yz: o }
     }
 
-    /// The same where xy and yz are zero.
+    /// Columns.
     #[inline(always)]
-    pub fn left_multiplied_in_plane(&self, a: &Mat3<S>) -> Mat3<S> {
-        [
-            axpy(a[0], self.xx, scale(a[2], self.xz)),
-            scale(a[1], self.yy),
-            axpy(a[0], self.xz, scale(a[2], self.zz)),
-        ]
+    pub fn columns(&self) -> Mat3<S> {
+        [[self.xx, self.xy, self.xz], [self.xy, self.yy, self.yz], [self.xz, self.yz, self.zz]]
     }
 
     pub fn map<T>(&self, f: impl Fn(S) -> T) -> Sym3<T> {
@@ -111,5 +103,127 @@ impl<S: Scalar> Sym3<S> {
 
     pub fn to_array(self) -> [S; 6] {
         [self.xx, self.yy, self.zz, self.xy, self.xz, self.yz]
+    }
+}
+
+/// A symmetric matrix M that measures lengths in element coordinates, with as many zeros as its kind is known to have.
+pub trait Metric<S: Scalar>: Copy {
+    /// Whether M has entries xy, xz and yz that are not zero.
+    const XY: bool;
+    const XZ: bool;
+    const YZ: bool;
+    /// M : G
+    fn contracted(&self, g: &Sym3<S>) -> S;
+    /// M G M
+    fn around(&self, g: &Sym3<S>) -> Sym3<S>;
+    /// c M
+    fn scaled(&self, c: S) -> Sym3<S>;
+}
+
+impl<S: Scalar> Metric<S> for Sym3<S> {
+    const XY: bool = true;
+    const XZ: bool = true;
+    const YZ: bool = true;
+
+    #[inline(always)]
+    fn contracted(&self, g: &Sym3<S>) -> S {
+        let off = dot([self.xy, self.xz, self.yz], [g.xy, g.xz, g.yz]);
+        self.xx.mul_add(g.xx, self.yy.mul_add(g.yy, self.zz.mul_add(g.zz, off + off)))
+    }
+
+    #[inline(always)]
+    fn around(&self, g: &Sym3<S>) -> Sym3<S> {
+        let (m, g) = (self.columns(), g.columns());
+        // Columns of G M.
+        let [x, y, z] = [
+            combined(&g, m[0][0], m[0][1], m[0][2]),
+            combined(&g, m[1][0], m[1][1], m[1][2]),
+            combined(&g, m[2][0], m[2][1], m[2][2]),
+        ];
+        Sym3 {
+            xx: dot(m[0], x),
+            yy: dot(m[1], y),
+            zz: dot(m[2], z),
+            xy: dot(m[0], y),
+            xz: dot(m[0], z),
+            yz: dot(m[1], z),
+        }
+    }
+
+    #[inline(always)]
+    fn scaled(&self, c: S) -> Sym3<S> {
+        Sym3 {
+            xx: c * self.xx,
+            yy: c * self.yy,
+            zz: c * self.zz,
+            xy: c * self.xy,
+            xz: c * self.xz,
+            yz: c * self.yz,
+        }
+    }
+}
+
+/// M that couples eta with neither xi nor zeta: xy and yz are not read.
+#[derive(Debug, Clone, Copy)]
+pub struct InPlane<S>(pub Sym3<S>);
+
+impl<S: Scalar> Metric<S> for InPlane<S> {
+    const XY: bool = false;
+    const XZ: bool = true;
+    const YZ: bool = false;
+
+    #[inline(always)]
+    fn contracted(&self, g: &Sym3<S>) -> S {
+        let m = &self.0;
+        m.xx.mul_add(g.xx, m.yy.mul_add(g.yy, m.zz.mul_add(g.zz, m.xz * (g.xz + g.xz))))
+    }
+
+    #[inline(always)]
+    fn around(&self, g: &Sym3<S>) -> Sym3<S> {
+        let m = &self.0;
+        // G M where it is needed: its columns xi and zeta.
+        let (xx, xz) = (g.xx.mul_add(m.xx, g.xz * m.xz), g.xx.mul_add(m.xz, g.xz * m.zz));
+        let (zx, zz) = (g.xz.mul_add(m.xx, g.zz * m.xz), g.xz.mul_add(m.xz, g.zz * m.zz));
+        let (yx, yz) = (g.xy.mul_add(m.xx, g.yz * m.xz), g.xy.mul_add(m.xz, g.yz * m.zz));
+        Sym3 {
+            xx: m.xx.mul_add(xx, m.xz * zx),
+            yy: m.yy * m.yy * g.yy,
+            zz: m.xz.mul_add(xz, m.zz * zz),
+            xy: m.yy * yx,
+            xz: m.xx.mul_add(xz, m.xz * zz),
+            yz: m.yy * yz,
+        }
+    }
+
+    #[inline(always)]
+    fn scaled(&self, c: S) -> Sym3<S> {
+        let (m, o) = (&self.0, S::zero());
+        Sym3 { xx: c * m.xx, yy: c * m.yy, zz: c * m.zz, xy: o, xz: c * m.xz, yz: o }
+    }
+}
+
+/// The identity.
+#[derive(Debug, Clone, Copy)]
+pub struct Identity;
+
+impl<S: Scalar> Metric<S> for Identity {
+    const XY: bool = false;
+    const XZ: bool = false;
+    const YZ: bool = false;
+
+    #[inline(always)]
+    fn contracted(&self, g: &Sym3<S>) -> S {
+        g.xx + g.yy + g.zz
+    }
+
+    #[inline(always)]
+    fn around(&self, g: &Sym3<S>) -> Sym3<S> {
+        *g
+    }
+
+    #[inline(always)]
+    fn scaled(&self, c: S) -> Sym3<S> {
+        let o = S::zero();
+        Sym3 { xx: c, yy: c, zz: c, xy: o, xz: o, yz: o }
     }
 }

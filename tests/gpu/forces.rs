@@ -48,6 +48,20 @@ fn case() -> Case {
     Case { scene, mesh, x, v }
 }
 
+/// The same of plane figures extruded along y, the meshes' eta: a metric has its entry xz alone.
+fn extruded() -> Case {
+    let mut case = case();
+    let mut noise = Noise::new(13);
+    let shifts: Vec<[f64; 3]> = (0..16).map(|_| noise.vector(0.8e-3)).collect();
+    case.mesh = Mesh::generate(&case.scene.body.mesh, [0.0; 3], None);
+    for (n, x) in case.mesh.nodes.iter_mut().enumerate() {
+        // Four nodes along x, y and z each.
+        let by = shifts[n / 16 * 4 + n % 4];
+        *x = [x[0] + by[0], x[1], x[2] + by[2]];
+    }
+    case
+}
+
 impl Case {
     fn model(&self, body: &Body) -> Model {
         Model::from_mesh(self.mesh.clone(), body).expect("the distorted elements are not inside out")
@@ -146,14 +160,20 @@ fn renumbered(mesh: &Mesh) -> Mesh {
 }
 
 /// Meshes whose numbers a shader computes with, under these numbers and others, and meshes with tables: one element thick, taller than one chain (the
-/// last one shorter), more than one work group wide, of few shape classes and of one a element.
+/// last one shorter), more than one work group wide with rows that end within one, a ring, of few shape classes and of one a
+/// element; laid out as for a software adapter and as for others.
 pub fn every_numbering(gpu: &Gpu) {
-    for elements in [[3, 4, 37], [1, 1, 40], [9, 10, 2], [2, 1, 1]] {
+    numberings(gpu);
+    numberings(&rig::as_hardware(gpu));
+}
+
+fn numberings(gpu: &Gpu) {
+    let block = |elements: [usize; 3]| MeshSpec::Block { size: elements.map(|n| 0.01 * n as f64), elements };
+    let ring = MeshSpec::Ring { outer_radius: 0.08, inner_radius: 0.05, width: 0.04, elements: [46, 4, 3] };
+    let blocks = [[3, 4, 37], [1, 1, 40], [9, 10, 2], [2, 1, 1]].map(block);
+    for spec in blocks.into_iter().chain([ring]) {
         for distorted in [false, true] {
             let mut case = case();
-            let size = [0.01, 0.01, 0.01].into_iter().zip(elements);
-            let size: Vec<f64> = size.map(|(s, n)| s * n as f64).collect();
-            let spec = MeshSpec::Block { size: [size[0], size[1], size[2]], elements };
             case.mesh = Mesh::generate(&spec, [0.0; 3], None);
             let mut noise = Noise::new(11);
             if distorted {
@@ -179,7 +199,8 @@ pub fn every_numbering(gpu: &Gpu) {
                     [Who::Cpu64, Who::Gpu, Who::Plus].map(|who| case.forces(gpu, who, &body));
                 // A coordinate of 0.4 m is rounded to 1.5e-8 m, of an edge of 10 mm whose strains are 0.1: 1.5e-5.
                 let errors = [relative(&plain, &exact), relative(&plus, &exact)];
-                let name = format!("{elements:?}, distorted {distorted}, {kind}: {errors:.1?}");
+                let name =
+                    format!("{spec:?}, distorted {distorted}, {kind}: {:.1e}, {:.1e}", errors[0], errors[1]);
                 note(|| name.clone());
                 assert!(errors[0] < 5e-5 && errors[1] < TOLERANCE, "{name}");
             }
@@ -187,15 +208,19 @@ pub fn every_numbering(gpu: &Gpu) {
     }
 }
 
-/// Every element, law and viscosity in plain f32.
+/// Every element, law and viscosity in plain f32, on elements of any shape and on extruded ones.
 pub fn every_composition(gpu: &Gpu) {
-    let case = case();
-    assert_eq!(case.model(&case.scene.body).classes.len(), 27);
-    for element in ELEMENTS {
-        for law in LAWS {
-            for viscosity in [None, Some(400.0)] {
-                let body = Body { element, law, viscosity, ..case.scene.body.clone() };
-                check(gpu, &case, Who::Gpu, &body, TOLERANCE);
+    let cases = [case(), extruded()];
+    let models = cases.each_ref().map(|case| case.model(&case.scene.body));
+    assert_eq!(models.each_ref().map(|m| m.classes.len()), [27, 9]);
+    assert_eq!(models.each_ref().map(Model::is_extruded), [false, true]);
+    for case in cases {
+        for element in ELEMENTS {
+            for law in LAWS {
+                for viscosity in [None, Some(400.0)] {
+                    let body = Body { element, law, viscosity, ..case.scene.body.clone() };
+                    check(gpu, &case, Who::Gpu, &body, TOLERANCE);
+                }
             }
         }
     }

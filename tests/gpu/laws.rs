@@ -40,9 +40,10 @@ pub fn doubles(gpu: &Gpu) {
     for (law, windows) in LAWS {
         let (scene, model, plan) = block(law, windows);
         let [exact, got] = [Who::Cpu64, Who::Double].map(|who| outcome(gpu, who, &model, &scene, &plan));
-        // A node that slides as fast as not at all may be booked as either. Friction that falls with speed makes errors
-        // grow: single precision's, too, are a hundred times those with friction that rises.
-        let fields = [("contact steps", 2e-3), ("surface v", 1e-9)];
+        // A node that slides as fast as not at all may be booked as either, and the block begins exactly on the road, where
+        // rounding decides: two steps of 25 nodes are 0.8 % of the node-steps of five windows, and no other window
+        // differs. Friction that falls with speed makes errors grow: single precision's, too, are a hundred times those with friction that rises.
+        let fields = [("contact steps", 1e-2), ("surface v", 1e-9)];
         within(law, &errors(&plan, 0.04, &got, &exact), &fields, 1e-11);
         within(law, &state_errors(&model, &got, &exact), &[("velocity", 1e-9)], 1e-11);
     }

@@ -1,6 +1,8 @@
 //! Small meshes in one work group's memory: the same steps, with forces summed in another order.
 
-use crate::rig::{Plan, Who, drive, errors, on_device, outcome, safe_step, scene, state_errors, within};
+use crate::rig::{
+    Plan, Who, as_hardware, drive, errors, on_device, outcome, safe_step, scene, state_errors, within,
+};
 use hexroll::engine::Engine;
 use hexroll::gpu::{Gpu, Precision};
 use hexroll::model::Model;
@@ -8,6 +10,12 @@ use hexroll::model::Model;
 /// Everything a resident stage can have (gravity, damping, viscosity, friction, a rim that turns), against the f64
 /// engine and against the passes. Bounds as in steps.rs for the former; the latter differ by the same roundings.
 pub fn agrees(gpu: &Gpu) {
+    // Chains as long as they can be, and as long as the work group's threads ask.
+    agrees_on(gpu);
+    agrees_on(&as_hardware(gpu));
+}
+
+fn agrees_on(gpu: &Gpu) {
     for (stem, changes) in [
         (
             "lat100_straight_viscous",

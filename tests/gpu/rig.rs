@@ -47,6 +47,13 @@ pub fn on_device(gpu: &Gpu, model: &Model, scene: &Scene, precision: Precision) 
     engine
 }
 
+/// The same adapter, with meshes laid out as for one that is no software.
+pub fn as_hardware(gpu: &Gpu) -> Gpu {
+    let mut gpu = gpu.clone();
+    gpu.report.software = false;
+    gpu
+}
+
 /// Numbers in -1..1, the same in every run.
 pub struct Noise(u64);
 

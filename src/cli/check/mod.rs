@@ -1,4 +1,4 @@
-//! `hexroll check`: what will be modelled, with which programs, at what cost. Nothing is simulated or written.
+//! `hexroll check`: what will be modelled, with which programs, at what cost. Nothing is simulated, and nothing written but programs.
 
 mod body;
 mod display;
@@ -7,6 +7,7 @@ mod stages;
 
 use clap::Args;
 use serde::Serialize;
+use std::path::PathBuf;
 
 use super::choose::{self, Precision};
 use super::estimate::{self, Steps};
@@ -21,13 +22,14 @@ use programs::GpuPlan;
 use stages::StagePlan;
 
 pub const HELP: &str = "\
-Reads and meshes the scene, composes its GPU programs, and times a few steps for the estimate; simulates nothing,
-writes nothing.
+Reads and meshes the scene, composes its GPU programs, and times a few steps for the estimate; simulates nothing, and
+writes nothing but, if asked to, the programs.
 
 Examples:
   hexroll check scenes/lat100_straight.toml
   hexroll check scenes/lat100_straight.toml --set body.mesh.elements='[132, 12, 15]'
-  hexroll check scenes/lat100_straight.toml --json | jq .gpu.programs";
+  hexroll check scenes/lat100_straight.toml --json | jq .gpu.programs
+  hexroll check scenes/lat100_straight.toml --programs wgsl";
 
 #[derive(Debug, Args)]
 pub struct CheckArgs {
@@ -36,6 +38,9 @@ pub struct CheckArgs {
     /// Print JSON
     #[arg(long)]
     json: bool,
+    /// Write the WGSL of every GPU program to this folder
+    #[arg(long, value_name = "DIR")]
+    programs: Option<PathBuf>,
 }
 
 /// Everything the command has to say.
@@ -94,6 +99,9 @@ pub fn execute(args: &CheckArgs) -> Result<()> {
         outputs: stages::outputs(&scene),
         warnings: warnings::of(&scene, &model).into_iter().chain(notes).collect(),
     };
+    if let Some(folder) = &args.programs {
+        check.gpu.write_sources(folder)?;
+    }
     if args.json { super::print_json(&check) } else { super::print(&check.to_string()) }
 }
 

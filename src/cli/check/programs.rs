@@ -1,6 +1,7 @@
 //! The GPU programs a scene is composed of, as naga sees them: parts, bindings, memory.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use naga::{AddressSpace, Module, StorageAccess, TypeInner};
 use serde::Serialize;
@@ -14,7 +15,7 @@ use crate::scene::{Drive, Scene};
 use crate::{Error, Result};
 
 /// Threads and memory [bytes] of a work group that every GPU of a desktop has at least.
-const THREADS: usize = 256;
+const THREADS: usize = 1024;
 const MEMORY: usize = 32 << 10;
 
 /// Programs and buffers of the single-precision GPU engine.
@@ -39,6 +40,9 @@ pub struct Program {
     pub parts: Vec<&'static str>,
     pub functions: usize,
     pub bindings: Vec<Binding>,
+    /// WGSL, as the parts are joined.
+    #[serde(skip)]
+    pub source: String,
 }
 
 /// A buffer as a program binds it.
@@ -62,6 +66,21 @@ pub struct Buffer {
 }
 
 impl GpuPlan {
+    /// Writes every program's WGSL to a folder: `<kernel>.wgsl`, with the stages in the name of what only some dispatch.
+    ///
+    /// # Errors
+    /// [`Error::Io`](crate::Error::Io).
+    pub fn write_sources(&self, folder: &Path) -> Result<()> {
+        std::fs::create_dir_all(folder).map_err(Error::io(folder, "make the folder"))?;
+        for program in &self.programs {
+            let alone = self.programs.iter().filter(|p| p.kernel == program.kernel).count() == 1;
+            let stages = if alone { String::new() } else { format!("-{}", program.stages.join("-")) };
+            let file = folder.join(format!("{}{stages}.wgsl", program.kernel));
+            std::fs::write(&file, &program.source).map_err(Error::io(&file, "write"))?;
+        }
+        Ok(())
+    }
+
     /// # Errors
     /// [`Error::Device`](crate::Error::Device) if a program cannot be composed.
     pub fn of(scene: &Scene, model: &Model) -> Result<GpuPlan> {
@@ -69,7 +88,7 @@ impl GpuPlan {
         let model = &*ordered.model;
         let mut programs: Vec<Program> = Vec::new();
         let chains = Chains::new(model, chains::longest(false, model.element_count()));
-        let scene_choice = choice(scene, &chains);
+        let scene_choice = choice(scene, model, &chains);
         for (kernel, runs) in scene_kernels(scene) {
             programs.push(program(&scene_choice, kernel, runs)?);
         }
@@ -94,7 +113,7 @@ impl GpuPlan {
 }
 
 /// What the scene needs, whatever the stage.
-fn choice(scene: &Scene, chains: &Chains) -> Choice {
+fn choice(scene: &Scene, model: &Model, chains: &Chains) -> Choice {
     Choice {
         element: scene.body.element,
         law: scene.body.law,
@@ -106,8 +125,10 @@ fn choice(scene: &Scene, chains: &Chains) -> Choice {
         damping: false,
         rim: if scene.rim.is_some() { RimKind::Prescribed } else { RimKind::None },
         precision: Precision::F32,
+        extruded: model.is_extruded(),
         shared_classes: chains.shared_classes,
         lattice: chains.lattice.is_some(),
+        joined: chains.lattice.is_some(),
     }
 }
 
@@ -154,6 +175,7 @@ fn program(choice: &Choice, kernel: Kernel, runs: &'static str) -> Result<Progra
         functions: module.functions.len(),
         bindings: bindings(&module)?,
         parts,
+        source: choice.text(kernel),
     })
 }
 

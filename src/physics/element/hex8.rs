@@ -8,7 +8,7 @@ use crate::physics::lanes::Lanes;
 use crate::physics::material::{Derivatives, Law};
 use crate::physics::scalar::Scalar;
 use crate::physics::tensor::{
-    Mat3, Sym3, Vec3, add, axpy, cofactor, combined, cross, det, dot, neg, scale, sub,
+    Mat3, Metric, Sym3, Vec3, add, axpy, cofactor, combined, cross, det, dot, neg, scale, sub,
 };
 use crate::scene::Lumping;
 
@@ -61,11 +61,15 @@ pub const HOURGLASS: [[f64; 8]; 4] = [
 /// Gauss abscissa 1/sqrt(3).
 pub const GAUSS: f64 = 0.577_350_269_189_625_8;
 
-/// Element coordinates run from -1/8 to 1/8: the columns of A at the Gauss points are then sums and differences of
-/// corner positions without a factor. A point's weight is the volume it stands for in these coordinates.
-pub const WEIGHT: f64 = 1.0 / 512.0;
-/// From these coordinates to those from -1 to 1: lengths, and the metric M.
-pub const TO_UNIT: f64 = 8.0;
+/// What the far edge counts at a Gauss line over what the near one does: (1 - 1/sqrt 3)/(1 + 1/sqrt 3) = 2 - sqrt 3.
+pub const FAR: f64 = 0.267_949_192_431_122_8;
+
+/// Element coordinates run from -2/3.2 to 2/3.2 or so, not from -1 to 1: the columns of A at the Gauss points are then
+/// interpolated with the weights 1 and [`FAR`], one operation a number. From these coordinates to those from -1 to 1:
+/// lengths, and the metric M.
+pub const TO_UNIT: f64 = 2.0 * (1.0 + FAR) * (1.0 + FAR);
+/// A point's weight is the volume it stands for in these coordinates.
+pub const WEIGHT: f64 = 1.0 / (TO_UNIT * TO_UNIT * TO_UNIT);
 
 /// Edge (or line) indices of the three columns at point q, whose bits are the signs of (xi, eta, zeta).
 #[inline(always)]
@@ -77,21 +81,14 @@ pub const fn lines(q: usize) -> [usize; 3] {
 /// Columns of A on the Gauss lines: `columns[d][line]`.
 pub type LineColumns<S> = [[Vec3<S>; 4]; 3];
 
-/// (1 + g) a + (1 - g) b and (1 - g) a + (1 + g) b as (a + b) +- g (a - b): half of it additions, which a processor
-/// does beside its multiplications.
+/// What a field along an edge is at the two Gauss lines, but for a factor of 1 + FAR.
 #[inline(always)]
 fn mix<S: Scalar>(a: Vec3<S>, b: Vec3<S>) -> [Vec3<S>; 2] {
-    let g = S::from_f64(GAUSS);
-    let (sum, difference) = (add(a, b), sub(a, b));
-    let less = [
-        difference[0].neg_mul_add(g, sum[0]),
-        difference[1].neg_mul_add(g, sum[1]),
-        difference[2].neg_mul_add(g, sum[2]),
-    ];
-    [axpy(difference, g, sum), less]
+    let far = S::from_f64(FAR);
+    [axpy(b, far, a), axpy(a, far, b)]
 }
 
-/// Four times the values on four Gauss lines from values on four edges; symmetric, so its own transpose.
+/// (1 + FAR)^2 times the values on four Gauss lines from values on four edges; symmetric, so its own transpose.
 #[inline(always)]
 fn interpolate<S: Scalar>(e: &[Vec3<S>; 4]) -> [Vec3<S>; 4] {
     let ([a0, a1], [b0, b1]) = (mix(e[0], e[1]), mix(e[2], e[3]));
@@ -124,17 +121,6 @@ pub fn at<S: Scalar>(columns: &LineColumns<S>, q: usize) -> Mat3<S> {
     [columns[0][i], columns[1][j], columns[2][k]]
 }
 
-/// Adds the force matrix of point q to the lines; points are taken in ascending order, and the first one on a line starts
-/// its sum.
-#[inline(always)]
-pub fn accumulate<S: Scalar>(lines_force: &mut LineColumns<S>, q: usize, g: &Mat3<S>) {
-    let [i, j, k] = lines(q);
-    let [x, y, z] = lines_force;
-    x[i] = if q & 1 == 0 { g[0] } else { add(x[i], g[0]) };
-    y[j] = if q >> 1 & 1 == 0 { g[1] } else { add(y[j], g[1]) };
-    z[k] = if q >> 2 & 1 == 0 { g[2] } else { add(z[k], g[2]) };
-}
-
 /// Volume of an element, exact for trilinear maps: three triple products of differences of corners (Grandy 1997).
 #[inline(always)]
 pub fn volume<S: Scalar>(x: &Corners<S>) -> S {
@@ -164,87 +150,87 @@ pub fn scatter<S: Scalar>(lines_force: &LineColumns<S>) -> Corners<S> {
     ]
 }
 
-/// Invariants and the products the force needs at a point.
+/// Gram matrix A^T A.
+#[inline(always)]
+pub fn gram<S: Scalar>(a: &Mat3<S>) -> Sym3<S> {
+    Sym3 {
+        xx: dot(a[0], a[0]),
+        yy: dot(a[1], a[1]),
+        zz: dot(a[2], a[2]),
+        xy: dot(a[0], a[1]),
+        xz: dot(a[0], a[2]),
+        yz: dot(a[1], a[2]),
+    }
+}
+
+/// What isotropic laws depend on at a point.
 #[derive(Clone, Copy)]
-pub struct Kinematics<S> {
-    /// A M
-    pub am: Mat3<S>,
-    /// A^T A M, whose trace is I1; columns
-    gram_m: Mat3<S>,
+pub struct Invariants<S> {
     pub i1: S,
     pub i2: S,
+    /// M G M, where the law depends on I2.
+    square: Sym3<S>,
 }
 
-/// I1 and, where the law wants it, I2 of C = J0^-T A^T A J0^-1. `EXTRUDED`: M couples eta with neither xi nor zeta.
+/// I1 and, where the law wants it, I2 of C = J0^-T G J0^-1 with G = A^T A: I1 = G : M, tr C^2 = G : M G M. Without I2, of G's entries
+/// off the diagonal only those are read where M has some.
 #[inline(always)]
-pub fn kinematics<S: Scalar, L: Law<S>, const EXTRUDED: bool>(a: &Mat3<S>, m: &Sym3<S>) -> Kinematics<S> {
-    let am = if EXTRUDED { m.left_multiplied_in_plane(a) } else { m.left_multiplied(a) };
+pub fn invariants<S: Scalar, L: Law<S>, M: Metric<S>>(gram: &Sym3<S>, metric: &M) -> Invariants<S> {
+    let i1 = metric.contracted(gram);
     if !L::HAS_I2 {
-        let i1 = dot(a[0], am[0]) + dot(a[1], am[1]) + dot(a[2], am[2]);
-        return Kinematics { am, gram_m: [[S::zero(); 3]; 3], i1, i2: S::zero() };
+        return Invariants { i1, i2: S::zero(), square: Sym3::zero() };
     }
-    let gram_m = [gram_column(a, am[0]), gram_column(a, am[1]), gram_column(a, am[2])];
-    let n = &gram_m;
-    let i1 = n[0][0] + n[1][1] + n[2][2];
-    // tr(C^2) = sum_ij N_ij N_ji with N = A^T A M
-    let diagonal = n[0][0] * n[0][0] + n[1][1] * n[1][1] + n[2][2] * n[2][2];
-    let off = n[0][1] * n[1][0] + n[0][2] * n[2][0] + n[1][2] * n[2][1];
-    let trace_c2 = diagonal + off + off;
-    Kinematics { am, gram_m, i1, i2: (i1 * i1 - trace_c2) * S::from_f64(0.5) }
+    let square = metric.around(gram);
+    Invariants { i1, i2: (i1 * i1 - square.contracted(gram)) * S::from_f64(0.5), square }
 }
 
+/// dV times the second Piola stress in element coordinates but for what goes with cof A: 2 W1 M + 2 W2 (I1 M - M G M). The
+/// force of a point on corner a is sum_d G_d dN_a/dxi_d with G = A S + (weight (WJ + p) I + weight sigma_v) cof A, where
+/// dV = weight det J0. With the mean gradient in place of a point's, dV and weight are 1.
 #[inline(always)]
-fn gram_column<S: Scalar>(a: &Mat3<S>, c: Vec3<S>) -> Vec3<S> {
-    [dot(a[0], c), dot(a[1], c), dot(a[2], c)]
-}
-
-/// Force matrix at a point, columns G_d with f_a = sum_d G_d dN_a/dxi_d:
-/// dV (2 W1 A M + 2 W2 (I1 A M - A M A^T A M)) + (weight (WJ + p) + S) cof A, where dV = weight det J0 and S, if there is
-/// any, is weight times the viscous stress. With the mean gradient in place of a point's, dV and weight are 1.
-#[inline(always)]
-pub fn force_matrix<S: Scalar, L: Law<S>>(
-    k: &Kinematics<S>,
+pub fn second_piola<S: Scalar, L: Law<S>, M: Metric<S>>(
+    k: &Invariants<S>,
     d: &Derivatives<S>,
-    pressure: S,
-    cof: &Mat3<S>,
+    metric: &M,
     dv: S,
-    weight: S,
-    viscous: Option<&Mat3<S>>,
-) -> Mat3<S> {
+) -> Sym3<S> {
     let two = dv + dv;
-    let mut g = pushed(cof, (d.wj + pressure) * weight, viscous);
     if !L::HAS_I2 {
-        let c1 = two * d.w1;
-        for c in 0..3 {
-            g[c] = axpy(k.am[c], c1, g[c]);
-        }
-        return g;
+        return metric.scaled(two * d.w1);
     }
     let c2 = two * d.w2;
-    let c1 = two * d.w1 + c2 * k.i1;
-    for c in 0..3 {
-        let n = k.gram_m[c];
-        let amn = axpy(k.am[0], n[0], axpy(k.am[1], n[1], scale(k.am[2], n[2])));
-        g[c] = axpy(amn, -c2, axpy(k.am[c], c1, g[c]));
+    let (m, q) = (metric.scaled(c2.mul_add(k.i1, two * d.w1)), &k.square);
+    Sym3 {
+        xx: q.xx.neg_mul_add(c2, m.xx),
+        yy: q.yy.neg_mul_add(c2, m.yy),
+        zz: q.zz.neg_mul_add(c2, m.zz),
+        xy: q.xy.neg_mul_add(c2, m.xy),
+        xz: q.xz.neg_mul_add(c2, m.xz),
+        yz: q.yz.neg_mul_add(c2, m.yz),
     }
-    g
 }
 
-/// (pressure I + S) cof A.
+/// F S with the S of [`second_piola`] for the identity as metric: the first Piola stress but for what goes with cof F.
 #[inline(always)]
-fn pushed<S: Scalar>(cof: &Mat3<S>, pressure: S, stress: Option<&Mat3<S>>) -> Mat3<S> {
-    let Some(stress) = stress else {
-        return [scale(cof[0], pressure), scale(cof[1], pressure), scale(cof[2], pressure)];
-    };
-    let mut all = *stress;
-    all[0][0] += pressure;
-    all[1][1] += pressure;
-    all[2][2] += pressure;
+pub fn times_second_piola<S: Scalar, L: Law<S>>(f: &Mat3<S>, s: &Sym3<S>) -> Mat3<S> {
+    if !L::HAS_I2 {
+        return [scale(f[0], s.xx), scale(f[1], s.yy), scale(f[2], s.zz)];
+    }
+    let s = s.columns();
     [
-        combined(&all, cof[0][0], cof[0][1], cof[0][2]),
-        combined(&all, cof[1][0], cof[1][1], cof[1][2]),
-        combined(&all, cof[2][0], cof[2][1], cof[2][2]),
+        combined(f, s[0][0], s[0][1], s[0][2]),
+        combined(f, s[1][0], s[1][1], s[1][2]),
+        combined(f, s[2][0], s[2][1], s[2][2]),
     ]
+}
+
+/// `pressure` I + `stress`.
+#[inline(always)]
+pub fn with_pressure<S: Scalar>(mut stress: Mat3<S>, pressure: S) -> Mat3<S> {
+    stress[0][0] += pressure;
+    stress[1][1] += pressure;
+    stress[2][2] += pressure;
+    stress
 }
 
 /// Reference geometry shared by all elements that differ by a rigid motion only.
@@ -399,7 +385,10 @@ impl Class<f64> {
         // int dN_a/dX dV = sum_q weight cof(J0) grad_xi N, the force of a unit pressure
         let mut unit = [[[0.0; 3]; 4]; 3];
         for (q, j) in j0.iter().enumerate() {
-            accumulate(&mut unit, q, &cofactor(j));
+            let (cof, at) = (cofactor(j), lines(q));
+            for d in 0..3 {
+                unit[d][at[d]] = add(unit[d][at[d]], cof[d]);
+            }
         }
         let gradient = scatter(&unit).map(|g| scale(g, WEIGHT / volume));
         let b2: f64 = gradient.iter().map(|&b| dot(b, b)).sum();

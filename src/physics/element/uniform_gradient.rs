@@ -2,7 +2,9 @@ use super::hex8::{self, Corners, HOURGLASS, Shape};
 use super::{Energy, Force, Formulation};
 use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::Scalar;
-use crate::physics::tensor::{Mat3, Sym3, Vec3, add, axpy, cofactor, combined, det, dot, neg, scale, sub};
+use crate::physics::tensor::{
+    Identity, Mat3, Vec3, add, axpy, cofactor, combined, det, dot, neg, scale, sub,
+};
 
 /// Volume-averaged gradients (Flanagan & Belytschko 1981) and hourglass stiffness on gamma-vectors formed on the
 /// reference shape, orthogonal to every affine field: a rigid rotation makes no hourglass force.
@@ -32,7 +34,7 @@ impl Formulation for UniformGradient {
     fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
         let f = mean_gradient(class, x);
         let j = det(&f);
-        let k = hex8::kinematics::<S, L, true>(&f, &identity());
+        let k = hex8::invariants::<S, L, _>(&hex8::gram(&f), &Identity);
         let mut q2 = S::zero();
         let modes = hourglass_modes(class, x, &f);
         for q in &modes {
@@ -92,32 +94,34 @@ fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
 ) -> (Force<S>, Mat3<S>, [Vec3<S>; 4]) {
     let cof = cofactor(&f);
     let j = dot(f[0], cof[0]);
-    let k = hex8::kinematics::<S, L, true>(&f, &identity());
+    let k = hex8::invariants::<S, L, _>(&hex8::gram(&f), &Identity);
     let d = law.first_piola(k.i1, k.i2, j);
+    let one = S::one();
+    let s = hex8::second_piola::<S, L, _>(&k, &d, &Identity, one);
+    let mut p = hex8::times_second_piola::<S, L>(&f, &s);
+    let pressure = d.wj + law.dU(j);
     for q in &mut hourglass {
         *q = scale(*q, class.hourglass_stiffness());
     }
     let mut power = S::zero();
-    let one = S::one();
-    let p = if let Some((rate, rates)) = rates {
+    if let Some((rate, rates)) = rates {
         let (viscous, density) = viscosity.stress(&rate, &cof, j, one);
         power += density * class.volume();
         for h in 0..4 {
             hourglass[h] = axpy(rates[h], class.hourglass_viscosity(), hourglass[h]);
             power += class.hourglass_viscosity() * dot(rates[h], rates[h]);
         }
-        hex8::force_matrix::<S, L>(&k, &d, law.dU(j), &cof, one, one, Some(&viscous))
+        let stress = hex8::with_pressure(viscous, pressure);
+        for c in 0..3 {
+            p[c] = add(p[c], combined(&stress, cof[c][0], cof[c][1], cof[c][2]));
+        }
     } else {
-        hex8::force_matrix::<S, L>(&k, &d, law.dU(j), &cof, one, one, None)
-    };
+        for c in 0..3 {
+            p[c] = axpy(cof[c], pressure, p[c]);
+        }
+    }
     let none = [[S::zero(); 3]; 8];
     (Force { f: none, min_j: j, viscous_power: power }, p, hourglass)
-}
-
-#[inline(always)]
-fn identity<S: Scalar>() -> Sym3<S> {
-    let (o, i) = (S::zero(), S::one());
-    Sym3 { xx: i, yy: i, zz: i, xy: o, xz: o, yz: o }
 }
 
 /// Columns of sum_a x_a (x) b_a.
@@ -232,11 +236,11 @@ fn extruded_forces<S: Scalar, G: Shape<S>>(class: &G, p: &Mat3<S>, hourglass: &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::element::Class;
+    use crate::physics::element::{Class, ExtrudedQ1p0, Q1p0};
     use crate::physics::material::{Inviscid, KelvinVoigt, MooneyRivlin};
     use crate::scene;
 
-    /// Both routines on plane figures extruded along eta, in any direction of space, deformed and moving at random.
+    /// All routines on plane figures extruded along eta, in any direction of space, deformed and moving at random.
     #[test]
     fn an_extruded_element_has_the_forces_of_any_element() {
         let given = scene::Law::MooneyRivlin { g0: 4e7, g1: 1e6, g2: 3e5 };
@@ -269,6 +273,14 @@ mod tests {
                 (
                     UniformGradient::force(&law, &moving, &class, &x, &v),
                     ExtrudedUniformGradient::force(&law, &moving, &class, &x, &v),
+                ),
+                (
+                    Q1p0::force(&law, &still, &class, &x, &v),
+                    ExtrudedQ1p0::force(&law, &still, &class, &x, &v),
+                ),
+                (
+                    Q1p0::force(&law, &moving, &class, &x, &v),
+                    ExtrudedQ1p0::force(&law, &moving, &class, &x, &v),
                 ),
             ];
             for (any, extruded) in pairs {

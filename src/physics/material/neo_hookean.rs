@@ -26,9 +26,10 @@ impl<S: Scalar> Law<S> for NeoHookean<S> {
     #[inline(always)]
     fn first_piola(&self, i1: S, _i2: S, j: S) -> Derivatives<S> {
         let r = j.recip_cbrt();
-        let w1 = self.g1 * S::from_f64(0.5) * r * r;
+        let r2 = r * r;
+        let w1 = self.g1 * S::from_f64(0.5) * r2;
         // -g1/3 J^-5/3 I1, with 1/J = r^3
-        Derivatives { w1, w2: S::zero(), wj: -(w1 * i1 * (r * r * r)) * S::from_f64(2.0 / 3.0) }
+        Derivatives { w1, w2: S::zero(), wj: w1 * i1 * (r2 * r) * S::from_f64(-2.0 / 3.0) }
     }
 
     #[inline(always)]

@@ -1,0 +1,15 @@
+// Symmetric matrices.
+
+// Diagonal, and xy, xz, yz.
+struct Sym { d: vec3r, o: vec3r }
+
+fn full(s: Sym) -> mat3x3r {
+    return mat3x3r(vec3r(s.d.x, s.o.x, s.o.y), vec3r(s.o.x, s.d.y, s.o.z), vec3r(s.o.y, s.o.z, s.d.z));
+}
+
+// A^T A
+fn gram(a: mat3x3r) -> Sym {
+    return Sym(
+        vec3r(dot(a[0], a[0]), dot(a[1], a[1]), dot(a[2], a[2])),
+        vec3r(dot(a[0], a[1]), dot(a[0], a[2]), dot(a[1], a[2])));
+}

@@ -1,0 +1,11 @@
+// Every chain stores all corners of its faces.
+
+fn store(at: u32, chain: Chain, lane: u32, chains: u32, level: u32, f: Shared) {
+    if lane >= chains {
+        return;
+    }
+    slots[at] = vec4r(f.a, 0.0);
+    slots[at + CORNER] = vec4r(f.b, 0.0);
+    slots[at + 2u * CORNER] = vec4r(f.c, 0.0);
+    slots[at + 3u * CORNER] = vec4r(f.d, 0.0);
+}

@@ -1,0 +1,31 @@
+// Chains side by side share two corners of each face: the right one's corners a and d are the left one's b and c, whose forces
+// it gets through the work group's memory. Half of the slots are then neither stored nor loaded.
+
+// Forces on b and c, number by number, of two levels in turn, so that one barrier a level is enough.
+var<workgroup> passed: array<real, 768>;
+
+fn store(at: u32, chain: Chain, lane: u32, chains: u32, level: u32, f: Shared) {
+    let page = (level & 1u) * 384u;
+    let own = page + lane;
+    passed[own] = f.b.x;
+    passed[own + 64u] = f.b.y;
+    passed[own + 128u] = f.b.z;
+    passed[own + 192u] = f.c.x;
+    passed[own + 256u] = f.c.y;
+    passed[own + 320u] = f.c.z;
+    workgroupBarrier();
+    if lane >= chains {
+        return;
+    }
+    let column = column_of(chain);
+    let left = page + max(lane, 1u) - 1u;
+    let has_left = is_joined(column % lattice_columns, lane);
+    let b = vec3r(passed[left], passed[left + 64u], passed[left + 128u]);
+    let c = vec3r(passed[left + 192u], passed[left + 256u], passed[left + 320u]);
+    slots[at] = vec4r(f.a + select(vec3r(0.0), b, has_left), 0.0);
+    slots[at + 3u * CORNER] = vec4r(f.d + select(vec3r(0.0), c, has_left), 0.0);
+    if lane + 1u == chains || !is_joined((column + 1u) % lattice_columns, lane + 1u) {
+        slots[at + CORNER] = vec4r(f.b, 0.0);
+        slots[at + 2u * CORNER] = vec4r(f.c, 0.0);
+    }
+}
