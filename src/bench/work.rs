@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::counting::{Counted, Operations, count};
 use crate::model::Model;
 use crate::physics::element::{
-    Class, Corners, ExtrudedQ1p0, ExtrudedUniformGradient, Formulation, Full, Q1p0, UniformGradient,
+    Class, Corners, ExtrudedFull, ExtrudedQ1p0, ExtrudedUniformGradient, Formulation, Full, Q1p0,
+    UniformGradient,
 };
 use crate::physics::material::{
     Inviscid, KelvinVoigt, Law, MooneyRivlin, MooneyRivlinEq4, NeoHookean, Viscosity,
@@ -55,6 +56,7 @@ pub fn element_operations<T: Real>(model: &Model) -> Operations {
     match model.element {
         scene::Element::Q1p0 if model.is_extruded() => with_law::<T, ExtrudedQ1p0>(model),
         scene::Element::Q1p0 => with_law::<T, Q1p0>(model),
+        scene::Element::Full if model.is_extruded() => with_law::<T, ExtrudedFull>(model),
         scene::Element::Full => with_law::<T, Full>(model),
         scene::Element::UniformGradient { .. } if model.is_extruded() => {
             with_law::<T, ExtrudedUniformGradient>(model)

@@ -7,7 +7,7 @@ use super::state::{Aligned, View};
 use crate::model::Model;
 use crate::model::chains::{BACK, FRONT};
 use crate::physics::element::{
-    Class, Corners, ExtrudedQ1p0, ExtrudedUniformGradient, Formulation, Full, LaneShapes, Q1p0,
+    Class, Corners, ExtrudedFull, ExtrudedQ1p0, ExtrudedUniformGradient, Formulation, Full, LaneShapes, Q1p0,
     UniformGradient,
 };
 use crate::physics::lanes::{Lanes, Level, Portable32, Portable64, WIDEST, first};
@@ -167,9 +167,10 @@ unsafe fn forces_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
     let viscosity = <V::Viscosity<N> as Viscosity<N>>::new(composed.eta);
     let viscous = <V::Viscosity<N> as Viscosity<N>>::ON;
     let item = &elements.items[item];
+    // Away from the stack, where it would lie between what the force routine keeps there.
     let mut copy = None;
     if let Item::Loose(loose) = item {
-        let copy = copy.insert(Copied::none());
+        let copy = copy.insert(Box::new(Copied::none()));
         unsafe { copy.read(loose, view, N::WIDTH, viscous) };
     }
     let mut failed = Failed(None);
@@ -456,6 +457,9 @@ macro_rules! build {
                         with_formulation::<ExtrudedQ1p0>(law, viscosity, level)
                     }
                     scene::Element::Q1p0 => with_formulation::<Q1p0>(law, viscosity, level),
+                    scene::Element::Full if model.is_extruded() => {
+                        with_formulation::<ExtrudedFull>(law, viscosity, level)
+                    }
                     scene::Element::Full => with_formulation::<Full>(law, viscosity, level),
                     scene::Element::UniformGradient { .. } if model.is_extruded() => {
                         with_formulation::<ExtrudedUniformGradient>(law, viscosity, level)

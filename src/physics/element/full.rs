@@ -25,3 +25,25 @@ impl Formulation for Full {
         pointwise_energy::<S, L, G, true>(law, class, &hex8::gradients(x))
     }
 }
+
+/// The same for elements that are all extruded along eta ([`super::Class::is_extruded`]).
+#[derive(Debug, Clone, Copy)]
+pub struct ExtrudedFull;
+
+impl Formulation for ExtrudedFull {
+    #[inline(always)]
+    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
+        law: &L,
+        viscosity: &V,
+        class: &G,
+        x: &Corners<S>,
+        v: &Corners<S>,
+    ) -> Force<S> {
+        points::<S, L, V, G, true, true>(law, viscosity, class, &hex8::gradients(x), v, S::zero())
+    }
+
+    #[inline(always)]
+    fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
+        Full::energy(law, class, x)
+    }
+}

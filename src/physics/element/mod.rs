@@ -15,7 +15,7 @@ pub mod hex8;
 mod q1p0;
 mod uniform_gradient;
 
-pub use full::Full;
+pub use full::{ExtrudedFull, Full};
 pub use hex8::{Class, Corners, LaneShapes, SameShape, Shape};
 pub use q1p0::{ExtrudedQ1p0, Q1p0};
 pub use uniform_gradient::{ExtrudedUniformGradient, UniformGradient};

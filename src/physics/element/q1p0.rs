@@ -2,7 +2,7 @@ use super::hex8::{self, Corners, Shape};
 use super::{Energy, Force, Formulation};
 use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::Scalar;
-use crate::physics::tensor::{InPlane, Metric, Sym3, Vec3, axpy, cofactor, det, dot, scale};
+use crate::physics::tensor::{InPlane, Metric, Sym3, axpy, cofactor, combined, det, dot, scale};
 
 /// 2x2x2 points for the isochoric part, one element pressure p = U'(v/V) (Simo, Taylor & Pister's mean
 /// dilatation): no volumetric locking. dv/dx_a comes from cof A.
@@ -71,18 +71,9 @@ fn mean_dilatation<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>, const EXT
 /// summed first, and its square is computed once.
 struct LineSums<S> {
     forces: hex8::LineColumns<S>,
-    /// Second Piola stress along the line at its first point.
+    /// Second Piola stress along the line: at its first point, or, of lines along zeta, at all so far.
     along: [[S; 4]; 3],
     squares: [[S; 4]; 3],
-}
-
-impl<S: Scalar> LineSums<S> {
-    /// Adds `of` times `by` to line `line` along `d`, or, if this is the first that it gets, sets it.
-    #[inline(always)]
-    fn add(&mut self, first: bool, d: usize, line: usize, of: Vec3<S>, by: S) {
-        let sum = &mut self.forces[d][line];
-        *sum = if first { scale(of, by) } else { axpy(of, by, *sum) };
-    }
 }
 
 /// All points. `POINTWISE`: the pressure is U'(J) of the point, not the element's `mean`; `EXTRUDED`: so are the elements.
@@ -104,72 +95,67 @@ pub(super) fn points<
 ) -> Force<S> {
     let zero = S::zero();
     let rates = if V::ON { hex8::gradients(v) } else { [[[zero; 3]; 4]; 3] };
-    let sums = LineSums { forces: [[[zero; 3]; 4]; 3], along: [[zero; 4]; 3], squares: [[zero; 4]; 3] };
+    let mut sums = LineSums { forces: [[[zero; 3]; 4]; 3], along: [[zero; 4]; 3], squares: [[zero; 4]; 3] };
+    for line in 0..4 {
+        sums.squares[2][line] = dot(columns[2][line], columns[2][line]);
+    }
     let mut all = (sums, S::from_f64(1e30), zero);
-    // With its number known a point's lines are registers, or places on the stack, and no addresses to be computed.
     macro_rules! point {
-        ($q:expr) => {
+        ($low:expr, $half:expr) => {
+            let (given, fields) = ((law, viscosity, class), (columns, &rates, mean));
             if EXTRUDED {
-                let metric = InPlane(class.metric($q));
-                point::<S, L, V, G, _, POINTWISE>(
-                    (law, viscosity, class),
-                    &metric,
-                    columns,
-                    &rates,
-                    mean,
-                    $q,
-                    &mut all,
-                );
+                let metric = InPlane(class.metric($low + 4 * $half));
+                point::<S, L, V, G, _, POINTWISE>(given, &metric, fields, $low, $half, &mut all);
             } else {
-                let metric = class.metric($q);
-                point::<S, L, V, G, _, POINTWISE>(
-                    (law, viscosity, class),
-                    &metric,
-                    columns,
-                    &rates,
-                    mean,
-                    $q,
-                    &mut all,
-                );
+                let metric = class.metric($low + 4 * $half);
+                point::<S, L, V, G, _, POINTWISE>(given, &metric, fields, $low, $half, &mut all);
             }
         };
     }
+    // With its number known a point's lines are registers, or places on the stack, and no addresses to be computed.
     // Unrolled code takes long to compile: it is kept to the case that most runs are.
-    if S::UNROLLED && EXTRUDED {
-        point!(0);
-        point!(1);
-        point!(2);
-        point!(3);
-        point!(4);
-        point!(5);
-        point!(6);
-        point!(7);
+    if S::UNROLLED && EXTRUDED && !POINTWISE {
+        point!(0, 0);
+        point!(1, 0);
+        point!(2, 0);
+        point!(3, 0);
+        point!(0, 1);
+        point!(1, 1);
+        point!(2, 1);
+        point!(3, 1);
     } else {
-        for q in 0..8 {
-            point!(q);
+        for half in 0..2 {
+            for low in 0..4 {
+                point!(low, half);
+            }
         }
     }
-    let (sums, min_j, viscous_power) = all;
+    let (mut sums, min_j, viscous_power) = all;
+    for line in 0..4 {
+        sums.forces[2][line] = axpy(columns[2][line], sums.along[2][line], sums.forces[2][line]);
+    }
     Force { f: hex8::scatter(&sums.forces), min_j, viscous_power }
 }
 
-/// Point q, after those before it: adds to the lines, the smallest det F and the viscous power.
+/// Point `low` (bits: the signs of xi and eta) of the half at the sign `half` of zeta, after those before it: adds to the lines, the
+/// smallest det F and the viscous power.
 #[inline(always)]
 fn point<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>, M: Metric<S>, const POINTWISE: bool>(
     (law, viscosity, class): (&L, &V, &G),
     metric: &M,
-    columns: &hex8::LineColumns<S>,
-    rates: &hex8::LineColumns<S>,
-    mean: S,
-    q: usize,
+    (columns, rates, mean): (&hex8::LineColumns<S>, &hex8::LineColumns<S>, S),
+    low: usize,
+    half: usize,
     (sums, min_j, power): &mut (LineSums<S>, S, S),
 ) {
     let (zero, weight) = (S::zero(), S::from_f64(hex8::WEIGHT));
-    let lines = hex8::lines(q);
-    // Whether this is the first point of its line along xi, eta, zeta.
-    let first = [q & 1 == 0, q >> 1 & 1 == 0, q >> 2 & 1 == 0];
-    let a = hex8::at(columns, q);
-    for d in 0..3 {
+    let q = low + 4 * half;
+    let (right, up) = (low & 1, low >> 1);
+    let lines = [up + 2 * half, right + 2 * half, low];
+    // Whether this is the first point of its line.
+    let first = [right == 0, up == 0, half == 0];
+    let a = [columns[0][lines[0]], columns[1][lines[1]], columns[2][lines[2]]];
+    for d in 0..2 {
         if first[d] {
             sums.squares[d][lines[d]] = dot(a[d], a[d]);
         }
@@ -188,41 +174,48 @@ fn point<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>, M: Metric<S>, const
     let k = hex8::invariants::<S, L, M>(&gram, metric);
     let d = law.first_piola(k.i1, k.i2, j);
     let pressure = (d.wj + if POINTWISE { law.dU(j) } else { mean }) * weight;
+    let mut stress = [[zero; 3]; 3];
     if V::ON {
-        let (viscous, point_power) = viscosity.stress(&hex8::at(rates, q), &cof, det_a, weight);
+        let rate = [rates[0][lines[0]], rates[1][lines[1]], rates[2][lines[2]]];
+        let (viscous, point_power) = viscosity.stress(&rate, &cof, det_a, weight);
         *power += point_power;
-        let stress = hex8::with_pressure(viscous, pressure);
-        for d in 0..3 {
-            sums.add(first[d], d, lines[d], stress[0], cof[d][0]);
-            sums.add(false, d, lines[d], stress[1], cof[d][1]);
-            sums.add(false, d, lines[d], stress[2], cof[d][2]);
-        }
-    } else {
-        for d in 0..3 {
-            sums.add(first[d], d, lines[d], cof[d], pressure);
-        }
+        stress = hex8::with_pressure(viscous, pressure);
+    }
+    // A line's sum is read and written once: with places that a compiler cannot tell apart, each addition would be.
+    let mut g = [[zero; 3]; 3];
+    for d in 0..3 {
+        let (before, c) = (sums.forces[d][lines[d]], cof[d]);
+        g[d] = match (V::ON, first[d]) {
+            (false, true) => scale(c, pressure),
+            (false, false) => axpy(c, pressure, before),
+            (true, true) => combined(&stress, c[0], c[1], c[2]),
+            (true, false) => axpy(stress[0], c[0], axpy(stress[1], c[1], axpy(stress[2], c[2], before))),
+        };
     }
     let s = hex8::second_piola::<S, L, M>(&k, &d, metric, class.det_j0(q));
     if M::XY || L::HAS_I2 {
-        sums.add(false, 0, lines[0], a[1], s.xy);
-        sums.add(false, 1, lines[1], a[0], s.xy);
+        g[0] = axpy(a[1], s.xy, g[0]);
+        g[1] = axpy(a[0], s.xy, g[1]);
     }
     if M::XZ || L::HAS_I2 {
-        sums.add(false, 0, lines[0], a[2], s.xz);
-        sums.add(false, 2, lines[2], a[0], s.xz);
+        g[0] = axpy(a[2], s.xz, g[0]);
+        g[2] = axpy(a[0], s.xz, g[2]);
     }
     if M::YZ || L::HAS_I2 {
-        sums.add(false, 1, lines[1], a[2], s.yz);
-        sums.add(false, 2, lines[2], a[1], s.yz);
+        g[1] = axpy(a[2], s.yz, g[1]);
+        g[2] = axpy(a[1], s.yz, g[2]);
     }
-    let own = [s.xx, s.yy, s.zz];
-    for d in 0..3 {
+    let own = [s.xx, s.yy];
+    for d in 0..2 {
         if first[d] {
             sums.along[d][lines[d]] = own[d];
         } else {
-            let both = sums.along[d][lines[d]] + own[d];
-            sums.add(false, d, lines[d], a[d], both);
+            g[d] = axpy(a[d], sums.along[d][lines[d]] + own[d], g[d]);
         }
+    }
+    sums.along[2][low] = if first[2] { s.zz } else { sums.along[2][low] + s.zz };
+    for d in 0..3 {
+        sums.forces[d][lines[d]] = g[d];
     }
     *min_j = min_j.min(j);
 }

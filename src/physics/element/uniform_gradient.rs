@@ -236,7 +236,7 @@ fn extruded_forces<S: Scalar, G: Shape<S>>(class: &G, p: &Mat3<S>, hourglass: &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::element::{Class, ExtrudedQ1p0, Q1p0};
+    use crate::physics::element::{Class, ExtrudedFull, ExtrudedQ1p0, Full, Q1p0};
     use crate::physics::material::{Inviscid, KelvinVoigt, MooneyRivlin};
     use crate::scene;
 
@@ -273,6 +273,10 @@ mod tests {
                 (
                     UniformGradient::force(&law, &moving, &class, &x, &v),
                     ExtrudedUniformGradient::force(&law, &moving, &class, &x, &v),
+                ),
+                (
+                    Full::force(&law, &moving, &class, &x, &v),
+                    ExtrudedFull::force(&law, &moving, &class, &x, &v),
                 ),
                 (
                     Q1p0::force(&law, &still, &class, &x, &v),
