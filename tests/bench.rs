@@ -85,7 +85,7 @@ fn every_composition_is_counted_and_costs_what_it_should() {
     let [q1p0, full, uniform] = ELEMENTS.map(|e| of(e, LAWS[0]));
     // One point against eight; the mean pressure needs the volume before the points.
     assert!(2 * uniform < q1p0 && 2 * uniform < full, "{q1p0} {full} {uniform}");
-    // I2 needs A^T A M.
+    // I2 needs M A^T A M.
     assert!(of(Element::Q1p0, LAWS[1]) > q1p0 + 8 * 40);
     // The same routine in either precision, but for two fused operations of each point's root.
     assert_eq!(q1p0, element_operations::<f32>(&small(Element::Q1p0, LAWS[0], None)).flops() + 8 * 2 * 2);

@@ -227,7 +227,7 @@ const SHARED: [(&str, &[&str]); 30] = [
     ("material/neo_hookean", &["psi", "first_piola", "U", "dU"]),
     ("material/mooney_rivlin", &["psi", "first_piola", "U", "dU"]),
     ("material/mooney_rivlin_eq4", &["psi", "first_piola", "U", "dU"]),
-    // Corner positions come as half edges (points) or as offsets (uniform gradient).
+    // Corner positions come as edges (points) or as offsets (uniform gradient).
     ("position/plain", &["edges_of", "offsets_of"]),
     ("position/resident", &["edges_of", "offsets_of"]),
     ("position/pairs", &["edges_of", "offsets_of", "sum_pair"]),

@@ -16,8 +16,11 @@ fn main(
         return;
     }
     let chains = chain_groups[number];
-    // Lanes without a chain go along the last one and keep nothing.
     let there = lane < chains.w;
+    if may_leave(there) {
+        return;
+    }
+    // Lanes without a chain that have to stay go along the last one and keep nothing.
     let place = min(lane, chains.w - 1u);
     let chain = Chain(number, place, chains.x + place);
     var at = chain.at;

@@ -4,6 +4,11 @@
 // Forces on b and c, number by number, of two levels in turn, so that one barrier a level is enough.
 var<workgroup> passed: array<real, 768>;
 
+// All lanes meet at the barriers.
+fn may_leave(there: bool) -> bool {
+    return false;
+}
+
 fn store(at: u32, chain: Chain, lane: u32, chains: u32, level: u32, f: Shared) {
     let page = (level & 1u) * 384u;
     let own = page + lane;
@@ -24,7 +29,7 @@ fn store(at: u32, chain: Chain, lane: u32, chains: u32, level: u32, f: Shared) {
     let c = vec3r(passed[left + 192u], passed[left + 256u], passed[left + 320u]);
     slots[at] = vec4r(f.a + select(vec3r(0.0), b, has_left), 0.0);
     slots[at + 3u * CORNER] = vec4r(f.d + select(vec3r(0.0), c, has_left), 0.0);
-    if lane + 1u == chains || !is_joined((column + 1u) % lattice_columns, lane + 1u) {
+    if !is_joined((column + 1u) % lattice_columns, lane + 1u) {
         slots[at + CORNER] = vec4r(f.b, 0.0);
         slots[at + 2u * CORNER] = vec4r(f.c, 0.0);
     }

@@ -15,6 +15,7 @@ use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::{Real, Scalar};
 use crate::physics::tensor::Vec3;
 use crate::scene;
+use std::cell::Cell;
 use std::marker::PhantomData;
 
 /// Constant data of the element passes.
@@ -58,12 +59,14 @@ struct Copied<T> {
     f: [[T; 8 * WIDEST]; 3],
 }
 
-impl<T: Real> Copied<T> {
-    fn none() -> Self {
-        let zero = [[T::zero(); 8 * WIDEST]; 3];
+impl Default for Copied<f64> {
+    fn default() -> Self {
+        let zero = [[0.0; 8 * WIDEST]; 3];
         Copied { x: zero, v: zero, f: zero }
     }
+}
 
+impl<T: Real> Copied<T> {
     /// # Safety
     /// No thread writes the nodes of `loose`.
     unsafe fn read(&mut self, loose: &Loose, view: &View<T>, width: usize, velocities: bool) {
@@ -97,6 +100,20 @@ impl<T: Real> Copied<T> {
             }
         }
     }
+}
+
+thread_local! {
+    /// What a thread copies loose elements to. On the stack it would lie between the values of the force routine, which
+    /// cost one build half of its speed.
+    static COPY: Cell<Option<Box<Copied<f64>>>> = const { Cell::new(None) };
+}
+
+/// The same memory for numbers that need no more of it.
+#[inline(always)]
+fn in_precision<T: Real>(copy: &mut Copied<f64>) -> &mut Copied<T> {
+    const { assert!(size_of::<Copied<T>>() <= size_of::<Copied<f64>>() && align_of::<T>() <= align_of::<f64>()) };
+    // SAFETY: it is large enough and aligned, and any bits are numbers (`Real` is plain data).
+    unsafe { &mut *std::ptr::from_mut(copy).cast() }
 }
 
 /// Corners of loose elements, where they were copied to.
@@ -167,10 +184,10 @@ unsafe fn forces_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
     let viscosity = <V::Viscosity<N> as Viscosity<N>>::new(composed.eta);
     let viscous = <V::Viscosity<N> as Viscosity<N>>::ON;
     let item = &elements.items[item];
-    // Away from the stack, where it would lie between what the force routine keeps there.
-    let mut copy = None;
+    let mut held: Option<Box<Copied<f64>>> = None;
+    let mut copy: Option<&mut Copied<N::Real>> = None;
     if let Item::Loose(loose) = item {
-        let copy = copy.insert(Box::new(Copied::none()));
+        let copy = copy.insert(in_precision(held.insert(COPY.take().unwrap_or_default())));
         unsafe { copy.read(loose, view, N::WIDTH, viscous) };
     }
     let mut failed = Failed(None);
@@ -219,6 +236,7 @@ unsafe fn forces_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
     unsafe {
         if let (Item::Loose(loose), Some(copy)) = (item, &copy) {
             copy.add(loose, view, N::WIDTH);
+            COPY.set(held);
         }
         if viscous {
             (power_sum * N::from_f64(power.weight)).add_to(power.sums);

@@ -120,8 +120,9 @@ fn a_mesh_for_one_work_group_has_its_kernel() {
 fn programs_are_written_where_they_are_asked_for() {
     let place = Place::new();
     let folder = place.dir.path().join("wgsl");
-    let scene = shipped("lat100_free_rolling.toml");
-    let check = check(&place, &[&scene, "--programs", folder.to_str().unwrap()]);
+    // A stage's name is anybody's text.
+    let (scene, name) = (shipped("lat100_free_rolling.toml"), "stage.0.name=\"../a/b\\nc\"");
+    let check = check(&place, &[&scene, "--set", name, "--programs", folder.to_str().unwrap()]);
     let files: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|f| f.unwrap().path()).collect();
     assert_eq!(files.len(), check["gpu"]["programs"].as_array().unwrap().len(), "{files:?}");
     for file in &files {

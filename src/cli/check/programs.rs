@@ -66,17 +66,22 @@ pub struct Buffer {
 }
 
 impl GpuPlan {
-    /// Writes every program's WGSL to a folder: `<kernel>.wgsl`, with the stages in the name of what only some dispatch.
+    /// Writes every program's WGSL to a folder: `<kernel>.wgsl`, numbered where stages have different ones, which the first line
+    /// says.
     ///
     /// # Errors
     /// [`Error::Io`](crate::Error::Io).
     pub fn write_sources(&self, folder: &Path) -> Result<()> {
         std::fs::create_dir_all(folder).map_err(Error::io(folder, "make the folder"))?;
+        let mut met: BTreeMap<&str, usize> = BTreeMap::new();
         for program in &self.programs {
-            let alone = self.programs.iter().filter(|p| p.kernel == program.kernel).count() == 1;
-            let stages = if alone { String::new() } else { format!("-{}", program.stages.join("-")) };
-            let file = folder.join(format!("{}{stages}.wgsl", program.kernel));
-            std::fs::write(&file, &program.source).map_err(Error::io(&file, "write"))?;
+            let number = met.entry(&program.kernel).and_modify(|n| *n += 1).or_insert(1);
+            let number = if *number == 1 { String::new() } else { format!("-{number}") };
+            let file = folder.join(format!("{}{number}.wgsl", program.kernel));
+            let stages =
+                if program.stages.is_empty() { "all".into() } else { format!("{:?}", program.stages) };
+            let text = format!("// Stages: {stages}.\n{}", program.source);
+            std::fs::write(&file, text).map_err(Error::io(&file, "write"))?;
         }
         Ok(())
     }

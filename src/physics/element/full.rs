@@ -5,10 +5,16 @@ use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::Scalar;
 
 /// 2x2x2 points for everything: locks near incompressibility, and shows it.
-#[derive(Debug, Clone, Copy)]
-pub struct Full;
+pub type Full = FullOf<false>;
 
-impl Formulation for Full {
+/// The same for elements that are all extruded along eta ([`super::Class::is_extruded`]).
+pub type ExtrudedFull = FullOf<true>;
+
+/// Either of them.
+#[derive(Debug, Clone, Copy)]
+pub struct FullOf<const EXTRUDED: bool>;
+
+impl<const EXTRUDED: bool> Formulation for FullOf<EXTRUDED> {
     #[inline(always)]
     fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
         law: &L,
@@ -17,33 +23,11 @@ impl Formulation for Full {
         x: &Corners<S>,
         v: &Corners<S>,
     ) -> Force<S> {
-        points::<S, L, V, G, true, false>(law, viscosity, class, &hex8::gradients(x), v, S::zero())
+        points::<S, L, V, G, true, EXTRUDED>(law, viscosity, class, &hex8::gradients(x), v, S::zero())
     }
 
     #[inline(always)]
     fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
         pointwise_energy::<S, L, G, true>(law, class, &hex8::gradients(x))
-    }
-}
-
-/// The same for elements that are all extruded along eta ([`super::Class::is_extruded`]).
-#[derive(Debug, Clone, Copy)]
-pub struct ExtrudedFull;
-
-impl Formulation for ExtrudedFull {
-    #[inline(always)]
-    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
-        law: &L,
-        viscosity: &V,
-        class: &G,
-        x: &Corners<S>,
-        v: &Corners<S>,
-    ) -> Force<S> {
-        points::<S, L, V, G, true, true>(law, viscosity, class, &hex8::gradients(x), v, S::zero())
-    }
-
-    #[inline(always)]
-    fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
-        Full::energy(law, class, x)
     }
 }

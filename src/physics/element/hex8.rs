@@ -1,4 +1,4 @@
-//! What the formulations share: gradients at the 2x2x2 Gauss points by sum factorisation, the force matrix at a
+//! What the formulations share: gradients at the 2x2x2 Gauss points by sum factorisation, invariants and stress at a
 //! point, and the reference geometry of a shape class.
 //!
 //! dx/dxi depends on (eta, zeta) only: at the four Gauss lines it is a bilinear interpolation of the four edge
@@ -64,10 +64,10 @@ pub const GAUSS: f64 = 0.577_350_269_189_625_8;
 /// What the far edge counts at a Gauss line over what the near one does: (1 - 1/sqrt 3)/(1 + 1/sqrt 3) = 2 - sqrt 3.
 pub const FAR: f64 = 0.267_949_192_431_122_8;
 
-/// Element coordinates run from -2/3.2 to 2/3.2 or so, not from -1 to 1: the columns of A at the Gauss points are then
+/// Element coordinates run from -1/3.2 to 1/3.2 or so, not from -1 to 1: the columns of A at the Gauss points are then
 /// interpolated with the weights 1 and [`FAR`], one operation a number. From these coordinates to those from -1 to 1:
 /// lengths, and the metric M.
-pub const TO_UNIT: f64 = 2.0 * (1.0 + FAR) * (1.0 + FAR);
+const TO_UNIT: f64 = 2.0 * (1.0 + FAR) * (1.0 + FAR);
 /// A point's weight is the volume it stands for in these coordinates.
 pub const WEIGHT: f64 = 1.0 / (TO_UNIT * TO_UNIT * TO_UNIT);
 

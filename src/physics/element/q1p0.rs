@@ -6,10 +6,17 @@ use crate::physics::tensor::{InPlane, Metric, Sym3, axpy, cofactor, combined, de
 
 /// 2x2x2 points for the isochoric part, one element pressure p = U'(v/V) (Simo, Taylor & Pister's mean
 /// dilatation): no volumetric locking. dv/dx_a comes from cof A.
-#[derive(Debug, Clone, Copy)]
-pub struct Q1p0;
+pub type Q1p0 = Q1p0Of<false>;
 
-impl Formulation for Q1p0 {
+/// The same for elements that are all extruded along eta ([`super::Class::is_extruded`]), as those of a ring or a block: a
+/// sixth fewer operations.
+pub type ExtrudedQ1p0 = Q1p0Of<true>;
+
+/// Either of them.
+#[derive(Debug, Clone, Copy)]
+pub struct Q1p0Of<const EXTRUDED: bool>;
+
+impl<const EXTRUDED: bool> Formulation for Q1p0Of<EXTRUDED> {
     #[inline(always)]
     fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
         law: &L,
@@ -18,7 +25,8 @@ impl Formulation for Q1p0 {
         x: &Corners<S>,
         v: &Corners<S>,
     ) -> Force<S> {
-        mean_dilatation::<S, L, V, G, false>(law, viscosity, class, x, v)
+        let pressure = law.dU(hex8::volume(x) * class.inverse_volume());
+        points::<S, L, V, G, false, EXTRUDED>(law, viscosity, class, &hex8::gradients(x), v, pressure)
     }
 
     #[inline(always)]
@@ -29,42 +37,6 @@ impl Formulation for Q1p0 {
         energy.strain += class.volume() * law.U(volume * class.inverse_volume());
         energy
     }
-}
-
-/// The same for elements that are all extruded along eta ([`super::Class::is_extruded`]), as those of a ring or a block: a
-/// tenth fewer operations.
-#[derive(Debug, Clone, Copy)]
-pub struct ExtrudedQ1p0;
-
-impl Formulation for ExtrudedQ1p0 {
-    #[inline(always)]
-    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
-        law: &L,
-        viscosity: &V,
-        class: &G,
-        x: &Corners<S>,
-        v: &Corners<S>,
-    ) -> Force<S> {
-        mean_dilatation::<S, L, V, G, true>(law, viscosity, class, x, v)
-    }
-
-    #[inline(always)]
-    fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
-        Q1p0::energy(law, class, x)
-    }
-}
-
-#[inline(always)]
-fn mean_dilatation<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>, const EXTRUDED: bool>(
-    law: &L,
-    viscosity: &V,
-    class: &G,
-    x: &Corners<S>,
-    v: &Corners<S>,
-) -> Force<S> {
-    let pressure = law.dU(hex8::volume(x) * class.inverse_volume());
-    let columns = hex8::gradients(x);
-    points::<S, L, V, G, false, EXTRUDED>(law, viscosity, class, &columns, v, pressure)
 }
 
 /// What the points add to the Gauss lines. Both points of a line have its column of A in common, so what multiplies that is
