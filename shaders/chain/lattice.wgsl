@@ -1,7 +1,7 @@
 // Nodes and elements of chains from their numbers: a generator's mesh, which needs no tables.
 
 fn column_of(chain: Chain) -> u32 {
-    return (chain.group % lattice_groups) * CORNER + chain.lane;
+    return (chain.group % lattice_groups) * CHAINS + chain.lane;
 }
 
 // Corners 0..3 of the first element.

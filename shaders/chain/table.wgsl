@@ -6,7 +6,7 @@
 
 fn face_at(at: u32) -> vec4u {
     return vec4u(
-        chain_nodes[at], chain_nodes[at + CORNER], chain_nodes[at + 2u * CORNER], chain_nodes[at + 3u * CORNER]);
+        chain_nodes[at], chain_nodes[at + CHAINS], chain_nodes[at + 2u * CHAINS], chain_nodes[at + 3u * CHAINS]);
 }
 
 // Corners 0..3 of the first element.
@@ -21,5 +21,5 @@ fn next_face(at: u32, before: vec4u) -> vec4u {
 
 // The element number `level` of a chain.
 fn element_at(chain: Chain, level: u32) -> u32 {
-    return chain_elements[element_entry(chain.at + level * FACE)];
+    return chain_elements[element_entry(chain.at + level * face_slots)];
 }

@@ -20,12 +20,12 @@ fn main(
         var nodes = first_face(chain);
         var low = load_face(nodes);
         for (var level = 0u; level < chains.z; level++) {
-            nodes = next_face(at + FACE, nodes);
+            nodes = next_face(at + face_slots, nodes);
             let high = load_face(nodes);
             let e = element_energy(low, high, class_at(chains, level, at));
             sum = vec4r(sum.xy + e.xy, 0.0, min(sum.w, e.z));
             low = high;
-            at += FACE;
+            at += face_slots;
         }
     }
     energies[thread] = sum;

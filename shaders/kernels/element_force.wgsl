@@ -31,7 +31,7 @@ fn main(
     var failed = NONE;
     var finite = true;
     for (var level = 0u; level < chains.z; level++) {
-        nodes = next_face(at + FACE, nodes);
+        nodes = next_face(at + face_slots, nodes);
         let high = load_end(nodes);
         let result = element_force(low, high, class_at(chains, level, at));
         let f = result.f;
@@ -44,7 +44,7 @@ fn main(
             finite = sound;
         }
         low = high;
-        at += FACE;
+        at += face_slots;
     }
     store(at, chain, lane, chains.w, chains.z, held);
     if !there {

@@ -53,7 +53,7 @@ fn assemble(number: u32) {
         var sum = held;
         let face = nodes;
         if level < length {
-            nodes = next_face(at + FACE, nodes);
+            nodes = next_face(at + face_slots, nodes);
             let high = load_end(nodes);
             let result = element_force(low, high, class_at(chains, level, at));
             let f = result.f;
@@ -67,7 +67,7 @@ fn assemble(number: u32) {
             low = high;
         }
         add_face(face, length > 0u && level <= length, sum);
-        at += FACE;
+        at += face_slots;
     }
     if length > 0u {
         book_viscous(number, power);

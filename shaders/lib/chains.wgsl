@@ -1,18 +1,14 @@
 // Elements in chains: the upper face of one is the lower face of the next, so that a thread that goes along a chain
-// loads and stores every face once. A work group has 64 chains of one length, side by side.
+// loads and stores every face once. A work group has CHAINS chains of one length, side by side.
 
 // Of a work group: its first slot, its first class, elements a chain, chains.
 @group(0) @binding(0) var<storage, read> chain_groups: array<vec4u>;
 @group(0) @binding(21) var<storage, read> chain_classes: array<u32>;
-
-// Slots from one face of a chain to the next, and from one corner of a face to the next.
-const FACE: u32 = 256u;
-const CORNER: u32 = 64u;
 
 // A chain's group, its place among the group's chains, and its first slot.
 struct Chain { group: u32, lane: u32, at: u32 }
 
 // Where a table by element has the element whose lower face begins at slot `at`.
 fn element_entry(at: u32) -> u32 {
-    return (at / FACE) * CORNER + at % FACE;
+    return (at / face_slots) * CHAINS + at % face_slots;
 }

@@ -1,5 +1,5 @@
 // Chains side by side share two corners of each face: the right one's corners a and d are the left one's b and c, whose forces
-// it gets through the work group's memory. Half of the slots are then neither stored nor loaded.
+// it gets through the work group's memory. Half of the slots are then neither stored nor loaded, and have no place.
 
 // Forces on b and c, number by number, of two levels in turn, so that one barrier a level is enough.
 var<workgroup> passed: array<real, 768>;
@@ -27,10 +27,11 @@ fn store(at: u32, chain: Chain, lane: u32, chains: u32, level: u32, f: Shared) {
     let has_left = is_joined(column % lattice_columns, lane);
     let b = vec3r(passed[left], passed[left + 64u], passed[left + 128u]);
     let c = vec3r(passed[left + 192u], passed[left + 256u], passed[left + 320u]);
+    let face = at - chain.lane;
     slots[at] = vec4r(f.a + select(vec3r(0.0), b, has_left), 0.0);
-    slots[at + 3u * CORNER] = vec4r(f.d + select(vec3r(0.0), c, has_left), 0.0);
+    slots[face + slot_d(column)] = vec4r(f.d + select(vec3r(0.0), c, has_left), 0.0);
     if !is_joined((column + 1u) % lattice_columns, lane + 1u) {
-        slots[at + CORNER] = vec4r(f.b, 0.0);
-        slots[at + 2u * CORNER] = vec4r(f.c, 0.0);
+        slots[face + slot_b(column)] = vec4r(f.b, 0.0);
+        slots[face + slot_c(column)] = vec4r(f.c, 0.0);
     }
 }

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 pub const LANES: usize = 64;
 /// Corners of a face.
 const CORNERS: usize = 4;
-/// Slots from one face of a chain to the next.
+/// Slots of a face of 64 chains that store all corners: from one face of a chain to the next.
 const FACE: usize = LANES * CORNERS;
 /// Most shape classes of the table that shaders/class/shared.wgsl declares.
 pub const SHARED_CLASSES: usize = 48;
@@ -37,7 +37,10 @@ pub fn longest(software: bool, elements: usize) -> usize {
 pub struct Chains {
     /// First slot, first entry of `classes` (shared classes), elements a chain, chains; shape `[group_count]`.
     pub groups: Vec<[u32; 4]>,
-    /// Node behind every slot: 64 chains by 4 corners by faces of a group; shape `[slot_count]`.
+    /// Slots from one face of a chain to the next: 64 chains by 4 corners; in a lattice whose chains are joined
+    /// (shaders/slots/joined.wgsl) 64 by 2, and 2 for each place where a row or a group may end.
+    pub face: usize,
+    /// Node at every corner: 64 chains by 4 corners by faces of a group; shape `[256 faces]`.
     pub nodes: Vec<u32>,
     /// Whether the chains of a group have the same classes, in the same order.
     pub shared_classes: bool,
@@ -55,11 +58,12 @@ pub struct Chains {
 }
 
 impl Chains {
-    /// Chains of at most `longest` elements.
-    pub fn new(model: &Model, longest: usize) -> Chains {
+    /// Chains of at most `longest` elements; `joined`: of a lattice, those side by side add up their forces before they
+    /// store them.
+    pub fn new(model: &Model, longest: usize, joined: bool) -> Chains {
         let longest = longest.max(1);
         match Lattice::of(&model.mesh) {
-            Some(lattice) => Chains::of_lattice(model, longest, lattice),
+            Some(lattice) => Chains::of_lattice(model, longest, lattice, joined),
             None => Chains::of_any(model, longest),
         }
     }
@@ -81,7 +85,7 @@ impl Chains {
     }
 
     /// In the order that shaders/chain/lattice.wgsl and shaders/gather/lattice.wgsl compute.
-    fn of_lattice(model: &Model, longest: usize, lattice: Lattice) -> Chains {
+    fn of_lattice(model: &Model, longest: usize, lattice: Lattice, joined: bool) -> Chains {
         let layers = lattice.chains(longest);
         let groups: Vec<Vec<&[u32]>> = (layers.iter())
             .flat_map(|layer| layer.chunks(LANES).map(|group| group.iter().map(Vec::as_slice).collect()))
@@ -92,6 +96,9 @@ impl Chains {
         };
         let shared_classes = model.classes.len() <= SHARED_CLASSES && groups.iter().all(equal);
         let mut all = Chains::empty(longest, Some(lattice), shared_classes);
+        if joined {
+            all.face = 2 * (LANES + lattice.row_ends(LANES));
+        }
         groups.iter().for_each(|g| all.push(model, g, &mut Vec::new()));
         all
     }
@@ -99,6 +106,7 @@ impl Chains {
     fn empty(longest: usize, lattice: Option<Lattice>, shared_classes: bool) -> Chains {
         Chains {
             groups: Vec::new(),
+            face: FACE,
             nodes: Vec::new(),
             shared_classes,
             classes: Vec::new(),
@@ -112,13 +120,25 @@ impl Chains {
 
     /// Slots of all groups, those of missing chains included.
     pub fn slot_count(&self) -> usize {
-        self.nodes.len()
+        self.nodes.len() / FACE * self.face
     }
 
-    /// Slots that are filled; `joined`: where a chain's neighbour in its group and row has its forces on the corners between them
-    /// (shaders/slots/joined.wgsl), only by that one.
-    pub fn stored_slots(&self, joined: bool) -> usize {
-        let row = self.lattice.filter(|_| joined).map(|lattice| (lattice.elements[0], lattice.columns()));
+    /// Nodes at corner `corner` of face `face` of a group's chains.
+    pub fn corner_nodes(&self, group: &[u32; 4], face: usize, corner: usize) -> &[u32] {
+        let at = (group[0] as usize / self.face + face) * FACE + corner * LANES;
+        &self.nodes[at..at + group[3] as usize]
+    }
+
+    /// Whether chains side by side add up their forces before they store them.
+    pub fn is_joined(&self) -> bool {
+        self.face != FACE
+    }
+
+    /// Slots that are filled. Where chains are joined, one whose neighbour in its group and row has its forces on the
+    /// corners between them does not store these.
+    pub fn stored_slots(&self) -> usize {
+        let row =
+            self.lattice.filter(|_| self.is_joined()).map(|lattice| (lattice.elements[0], lattice.columns()));
         let mut first = 0;
         let mut stored = 0;
         for &[_, _, length, chains] in &self.groups {
@@ -137,7 +157,7 @@ impl Chains {
 
     /// Appends a group of chains of one length; `used` gains (node, slot).
     fn push(&mut self, model: &Model, chains: &[&[u32]], used: &mut Vec<(u32, u32)>) {
-        let (first, length) = (self.nodes.len(), chains[0].len());
+        let (first, length) = (self.slot_count(), chains[0].len());
         let sequence = self.classes.len() as u32;
         let class = |e: &u32| model.class_of[*e as usize];
         if self.shared_classes {
@@ -243,31 +263,40 @@ mod tests {
     fn chains_hold_every_element_once_and_every_node_gathers_all_its_corners() {
         let model = model([7, 5, 3]);
         let lattice = Lattice::of(&model.mesh).unwrap();
-        let both = |longest| [Chains::of_any(&model, longest), Chains::of_lattice(&model, longest, lattice)];
-        for chains in [1, 2, 3, 5, 9].into_iter().flat_map(both) {
+        let all = |longest| {
+            let lattice_chains = |joined| Chains::of_lattice(&model, longest, lattice, joined);
+            [Chains::of_any(&model, longest), lattice_chains(false), lattice_chains(true)]
+        };
+        for chains in [1, 2, 3, 5, 9].into_iter().flat_map(all) {
             let mut met = vec![0; model.element_count()];
             let mut corners: Vec<Vec<u32>> = vec![Vec::new(); model.node_count()];
+            let mut next = 0;
             for &[first, sequence, length, lanes] in &chains.groups {
+                assert_eq!(first as usize, next);
+                next += (length as usize + 1) * chains.face;
                 for lane in 0..lanes as usize {
                     for level in 0..length as usize {
-                        let at = first as usize + level * FACE + lane;
-                        let element = chains.elements[at / FACE * LANES + at % FACE];
+                        let at = first as usize + level * chains.face + lane;
+                        let entry = at / chains.face * LANES + at % chains.face;
+                        let element = chains.elements[entry];
                         met[element as usize] += 1;
                         let hex = model.mesh.hexes[element as usize];
-                        let node = |c: usize| chains.nodes[at + c / 4 * FACE + c % 4 * LANES];
-                        assert_eq!(std::array::from_fn(node), hex);
                         let class = if chains.shared_classes {
                             chains.classes[sequence as usize + level]
                         } else {
-                            chains.classes[at / FACE * LANES + at % FACE]
+                            chains.classes[entry]
                         };
                         assert_eq!(class, model.class_of[element as usize]);
+                        let group = [first, sequence, length, lanes];
+                        let node = |c: usize| chains.corner_nodes(&group, level + c / 4, c % 4)[lane];
+                        assert_eq!(std::array::from_fn(node), hex);
                         (0..8).for_each(|c| {
                             corners[hex[c] as usize].push((at + c / 4 * FACE + c % 4 * LANES) as u32)
                         });
                     }
                 }
             }
+            assert_eq!(chains.slot_count(), next);
             assert!(met.iter().all(|&m| m == 1));
             if chains.lattice.is_some() {
                 continue;
@@ -283,26 +312,45 @@ mod tests {
     /// 1,024 columns of four radial layers: 16 groups, and five faces for four elements.
     #[test]
     fn a_ring_has_full_groups_of_equal_classes() {
-        let chains = Chains::new(&model([64, 4, 16]), 4);
-        assert!(chains.shared_classes);
-        assert_eq!(chains.groups.len(), 16);
-        assert_eq!(chains.slot_count(), 5 * 4 * 1024);
-        assert_eq!(chains.stored_slots(false), 5 * 4 * 1024);
-        // A row of 64 is a group: the first chain of each has none on its left.
-        assert_eq!(chains.stored_slots(true), 5 * 16 * (2 * 64 + 2));
+        let chains = |joined| Chains::new(&model([64, 4, 16]), 4, joined);
+        let apart = chains(false);
+        assert!(apart.shared_classes);
+        assert_eq!(apart.groups.len(), 16);
+        assert_eq!((apart.slot_count(), apart.stored_slots()), (5 * 4 * 1024, 5 * 4 * 1024));
+        // A row of 64 is a group: the first chain of each has none on its left. A group that began elsewhere would have
+        // two ends.
+        let joined = chains(true);
+        assert_eq!(
+            (joined.slot_count(), joined.stored_slots()),
+            (5 * 16 * (2 * 64 + 4), 5 * 16 * (2 * 64 + 2))
+        );
     }
 
     /// Rows of 10, of which six begin in the first group and one in the second, whose first chain is in a row's middle; two layers of
     /// chains, of four faces and of three.
     #[test]
     fn rows_that_end_within_a_group_store_both_sides() {
-        let chains = Chains::new(&model([10, 5, 7]), 3);
+        let chains = |joined| Chains::new(&model([10, 5, 7]), 3, joined);
+        let (apart, joined) = (chains(false), chains(true));
         assert_eq!(
-            chains.groups.iter().map(|g| (g[2], g[3])).collect::<Vec<_>>(),
+            joined.groups.iter().map(|g| (g[2], g[3])).collect::<Vec<_>>(),
             [(3, 64), (3, 6), (2, 64), (2, 6)]
         );
-        assert_eq!(chains.stored_slots(false), (4 + 3) * 4 * 70);
+        assert_eq!(apart.stored_slots(), (4 + 3) * 4 * 70);
         // Chains without one on their left: seven that begin a row and the first of the second group.
-        assert_eq!(chains.stored_slots(true), (4 + 3) * (2 * 70 + 2 * 8));
+        assert_eq!(joined.stored_slots(), (4 + 3) * (2 * 70 + 2 * 8));
+        // No group touches more rows than there are.
+        assert_eq!(joined.slot_count(), (4 + 3) * 2 * (2 * 64 + 2 * 7));
+    }
+
+    /// In rows of one element nothing is shared, so that a full group has four corners a chain.
+    #[test]
+    fn rows_of_one_are_not_joined() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/bouncing_block.toml");
+        let scene = Scene::load(&file, &["body.mesh.elements=[1,70,2]".to_string()]);
+        let model = Model::new(&scene.unwrap()).unwrap();
+        let chains = Chains::new(&model, 2, true);
+        assert!(chains.lattice.is_some() && !chains.is_joined());
+        assert_eq!((chains.slot_count(), chains.stored_slots()), (3 * 2 * 256, 3 * 4 * 70));
     }
 }

@@ -70,6 +70,7 @@ shaders!(
     "lib/gravity",
     "lib/gravity_none",
     "lib/element_report",
+    "lib/face",
     "lib/group_sum",
     "lib/hex8",
     "lib/index",
@@ -304,7 +305,8 @@ impl Choice {
             }
         };
         let chains: &[&str] = if self.lattice { &["chain/lattice", "lib/lattice"] } else { &["chain/table"] };
-        let shared = vec![invariants, "lib/symmetric", "lib/chains", classes, "lib/hex8", "lib/index"];
+        let shared =
+            vec![invariants, "lib/symmetric", "lib/chains", "lib/face", classes, "lib/hex8", "lib/index"];
         [element, shared, chains.to_vec(), law].concat()
     }
 
@@ -317,7 +319,7 @@ impl Choice {
         if !self.lattice {
             return vec!["gather/table"];
         }
-        vec!["gather/lattice", "lib/lattice", self.join_part()]
+        vec!["gather/lattice", "lib/lattice", "lib/face", self.join_part()]
     }
 
     fn force_parts(&self) -> Vec<&'static str> {

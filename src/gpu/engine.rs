@@ -98,11 +98,11 @@ impl Counts {
         [groups.div_ceil(rows), rows, 1]
     }
 
-    /// Most steps a submission may hold: those whose contact the device can keep, in 4 bytes an element or 1 MiB.
+    /// Most steps a submission may hold: those whose contact the device can keep, in 2 bytes an element or 1 MiB.
     pub fn contact_slots(&self) -> usize {
         match self.surface.div_ceil(GROUP) {
             0 => PLAN,
-            groups => ((4 * self.elements).max(1 << 20) / (16 * groups)).clamp(64, PLAN),
+            groups => ((2 * self.elements).max(1 << 20) / (16 * groups)).clamp(64, PLAN),
         }
     }
 

@@ -60,6 +60,13 @@ impl Lattice {
         self.elements[0] * self.elements[1]
     }
 
+    /// Rows that a group of `columns` columns, one after the other, may touch: so many ends of rows, or of itself, it
+    /// may have.
+    pub fn row_ends(&self, columns: usize) -> usize {
+        // The worst group begins at the last column of a row.
+        ((columns - 1).div_ceil(self.elements[0]) + 1).min(self.elements[1])
+    }
+
     /// Elements of a chain, and of one of the last layer, if none may have more than `longest`.
     pub fn lengths(&self, longest: usize) -> [usize; 2] {
         let tall = self.elements[2];
@@ -132,6 +139,18 @@ mod tests {
         let mut more = ring([6, 3, 2]);
         more.nodes.push([0.0; 3]);
         assert_eq!(Lattice::of(&more), None);
+    }
+
+    /// Counted group by group: never more, and reached by some row length that has a group begin at a row's last column.
+    #[test]
+    fn a_group_has_no_more_ends_than_rows_it_touches() {
+        for (row, rows) in (1..150).flat_map(|row| [(row, 100), (row, 4)]) {
+            let lattice = Lattice { row, rows, elements: [row, rows - 1, 1] };
+            let touched = |first: usize| (first + 63).min(lattice.columns() - 1) / row - first / row + 1;
+            let most = (0..lattice.columns()).step_by(64).map(touched).max().unwrap();
+            assert!(most <= lattice.row_ends(64), "rows of {row}");
+            assert!(row % 2 == 0 || rows < 100 || most == lattice.row_ends(64), "rows of {row}");
+        }
     }
 
     #[test]

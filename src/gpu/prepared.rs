@@ -41,7 +41,11 @@ impl Prepared {
         let mesh = scene.friction.filter(Friction::needs_area).map(|_| model.mesh.clone());
         let Ordered { model, order } = order::ordered(model);
         let model = model.into_owned();
-        let chains = Chains::new(&model, chains::longest(gpu.report.software, model.element_count()));
+        let chains = Chains::new(
+            &model,
+            chains::longest(gpu.report.software, model.element_count()),
+            !gpu.report.software,
+        );
         buffers::check_limits(gpu, &model, &chains, scene.road.is_some(), real)?;
         let choice = Choice {
             element: model.element,
@@ -57,7 +61,7 @@ impl Prepared {
             extruded: model.is_extruded(),
             shared_classes: chains.shared_classes,
             lattice: chains.lattice.is_some(),
-            joined: chains.lattice.is_some() && !gpu.report.software,
+            joined: chains.is_joined(),
         };
         let counts = Counts {
             elements: model.element_count(),
@@ -66,7 +70,7 @@ impl Prepared {
             rim: model.mesh.rim.len(),
             chain_groups: chains.groups.len(),
             slots: chains.slot_count(),
-            stored_slots: chains.stored_slots(choice.joined),
+            stored_slots: chains.stored_slots(),
             most_groups: gpu.report.workgroups,
         };
         let grain = frame::grain(&model.mesh);

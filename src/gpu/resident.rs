@@ -72,10 +72,7 @@ impl Shape {
 fn is_apart(chains: &Chains, round: &[[u32; 4]], face: usize) -> bool {
     (0..4).all(|corner| {
         let mut met = HashSet::new();
-        let lanes = round.iter().filter(|g| face <= g[2] as usize).flat_map(|g| {
-            let at = g[0] as usize + (4 * face + corner) * LANES;
-            &chains.nodes[at..at + g[3] as usize]
-        });
-        lanes.into_iter().all(|node| met.insert(*node))
+        let there = round.iter().filter(|g| face <= g[2] as usize);
+        there.flat_map(|g| chains.corner_nodes(g, face, corner)).all(|node| met.insert(*node))
     })
 }

@@ -44,6 +44,7 @@ pub fn constants(model: &Model, scene: &Scene, chains: &Chains) -> Vec<(&'static
     };
     let mut all = vec![("g0", g0), ("g1", g1), ("g2", g2), ("eta", model.viscosity.unwrap_or(0.0))];
     all.extend(["gravity_x", "gravity_y", "gravity_z"].into_iter().zip(scene.gravity));
+    all.push(("face_slots", chains.face as f64));
     all.extend(chains.lattice.iter().flat_map(|l| l.constants(chains.longest)));
     all.extend(scene.friction.iter().flat_map(friction_constants));
     if let Some(Road::Plane { point, normal, velocity }) = scene.road {

@@ -142,9 +142,13 @@ fn memory_grows_with_the_mesh() {
         let buffers = check["gpu"]["buffers"].as_array().unwrap().clone();
         buffers.iter().find(|b| b["name"] == "slots").unwrap()["bytes"].as_u64().unwrap()
     };
-    // Four single-precision numbers for each corner of a face, for 64 chains side by side. Chains of so small meshes have one
-    // element, and two faces, each; one layer of them stands on the other along z.
-    assert_eq!((slots("[2, 2, 2]"), slots("[4, 5, 6]")), (2 * 2 * 64 * 64, 6 * 2 * 64 * 64));
+    // Four single-precision numbers for two corners of a face, for 64 chains side by side, and two more corners where a row
+    // ends: two rows, and five. Chains of so small meshes have one element, and two faces, each; one layer of them stands on
+    // the other along z.
+    assert_eq!(
+        (slots("[2, 2, 2]"), slots("[4, 5, 6]")),
+        (2 * 2 * 16 * 2 * (64 + 2), 6 * 2 * 16 * 2 * (64 + 5))
+    );
 }
 
 #[test]

@@ -92,7 +92,7 @@ impl GpuPlan {
         let ordered = order::ordered(model);
         let model = &*ordered.model;
         let mut programs: Vec<Program> = Vec::new();
-        let chains = Chains::new(model, chains::longest(false, model.element_count()));
+        let chains = Chains::new(model, chains::longest(false, model.element_count()), true);
         let scene_choice = choice(scene, model, &chains);
         for (kernel, runs) in scene_kernels(scene) {
             programs.push(program(&scene_choice, kernel, runs)?);
@@ -133,7 +133,7 @@ fn choice(scene: &Scene, model: &Model, chains: &Chains) -> Choice {
         extruded: model.is_extruded(),
         shared_classes: chains.shared_classes,
         lattice: chains.lattice.is_some(),
-        joined: chains.lattice.is_some(),
+        joined: chains.is_joined(),
     }
 }
 
@@ -233,7 +233,8 @@ fn entries(name: &str, model: &Model, chains: &Chains) -> Option<u64> {
     let mesh = &model.mesh;
     let count = match name {
         "chain_groups" => chains.groups.len(),
-        "chain_nodes" | "slots" => chains.slot_count(),
+        "chain_nodes" => chains.nodes.len(),
+        "slots" => chains.slot_count(),
         "chain_classes" => chains.classes.len(),
         "chain_elements" => chains.elements.len(),
         "energies" | "viscous_work" => chains::LANES * chains.groups.len(),
