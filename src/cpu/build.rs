@@ -11,21 +11,33 @@ use crate::physics::lanes::Level;
 use crate::physics::scalar::Real;
 use crate::scene::Road;
 
-/// Data of the node pass by place.
-pub fn nodes<T: NodePass>(model: &Model, layout: &Layout, surface: &[u32], level: Level) -> Nodes<T> {
+/// Data of the node pass for lanes of `width`.
+pub fn nodes<T: NodePass>(
+    model: &Model,
+    layout: &Layout,
+    surface: &[u32],
+    level: Level,
+    width: usize,
+) -> Nodes<T> {
     let place = |n: u32| layout.place[n as usize] as usize;
     let (mut mass, mut inverse_mass) = (Aligned::zeros(layout.places), Aligned::zeros(layout.places));
     for (n, &m) in model.mass.iter().enumerate() {
         mass.slice_mut()[place(n as u32)] = T::from_f64(m);
         inverse_mass.slice_mut()[place(n as u32)] = T::from_f64(1.0 / m);
     }
-    let mut surface_of = vec![NO_SURFACE; layout.places];
-    for (k, &n) in surface.iter().enumerate() {
-        surface_of[place(n)] = k as u32;
+    let mut boundary_of = vec![0; model.node_count()];
+    for line in &layout.lines {
+        for (batch, nodes) in line.batches.iter().zip(line.nodes.chunks(width)) {
+            nodes.iter().zip(batch.boundary..).for_each(|(&n, at)| boundary_of[n as usize] = at as usize);
+        }
     }
-    let mut rim_arms = Field::zeros(layout.places);
+    let mut surface_of = vec![NO_SURFACE; layout.boundary];
+    for (k, &n) in surface.iter().enumerate() {
+        surface_of[boundary_of[n as usize]] = k as u32;
+    }
+    let mut rim_arms = Field::zeros(layout.boundary);
     for &n in &model.mesh.rim {
-        rim_arms.set(place(n), sub64(model.mesh.nodes[n as usize], model.mesh.axle));
+        rim_arms.set(boundary_of[n as usize], sub64(model.mesh.nodes[n as usize], model.mesh.axle));
     }
     Nodes {
         lines: layout.lines.clone(),

@@ -113,7 +113,7 @@ where
                     }
                     _ => Vec::new(),
                 },
-                ..nodes(model, &layout, &surface_nodes, level)
+                ..nodes(model, &layout, &surface_nodes, level, width)
             },
             stored: stored(model, &layout, level, width),
             viscous: model.viscosity.is_some(),

@@ -76,6 +76,8 @@ pub struct NodeBatch {
     pub surface: u32,
     /// Held components: lanes by component.
     pub held: [u32; 3],
+    /// Of a batch with either: where its lanes begin in tables of such batches alone.
+    pub boundary: u32,
 }
 
 /// Consecutive nodes.
@@ -120,6 +122,8 @@ pub struct Layout {
     /// The table of shapes: the class of every lane. The first entries are the model's classes, the same in all lanes.
     pub shapes: Vec<[u32; WIDEST]>,
     pub surface_lines: usize,
+    /// Lanes of batches of nodes with rim or surface nodes.
+    pub boundary: usize,
 }
 
 /// Position of a node: its line and place in it.
@@ -303,11 +307,11 @@ impl<'a> Builder<'a> {
         let groups = self.groups();
         let places = self.lay_nodes();
         let groups = self.join(&groups);
-        let surface_lines = self.roles(model, road);
+        let (surface_lines, boundary) = self.roles(model, road);
         let place = |at: &At| (self.lines[at.line as usize].start + at.index as usize) as u32;
         let place = self.at.iter().map(place).collect();
         let Builder { items, lines, shapes, .. } = self;
-        Layout { place, places, items, lines, groups, shapes, surface_lines }
+        Layout { place, places, items, lines, groups, shapes, surface_lines, boundary }
     }
 
     /// Cuts the items so that a line meets few groups.
@@ -402,8 +406,8 @@ impl<'a> Builder<'a> {
         next
     }
 
-    /// Marks rim and surface nodes; returns the number of lines that can touch.
-    fn roles(&mut self, model: &Model, road: bool) -> usize {
+    /// Marks rim and surface nodes; returns the number of lines that can touch, and of lanes beside such nodes.
+    fn roles(&mut self, model: &Model, road: bool) -> (usize, usize) {
         let mut mark = |nodes: &[u32], bit: fn(&mut NodeBatch) -> &mut u32| {
             for &n in nodes {
                 let At { line, index } = self.at[n as usize];
@@ -422,7 +426,7 @@ impl<'a> Builder<'a> {
         mark(&held(0), |b| &mut b.held[0]);
         mark(&held(1), |b| &mut b.held[1]);
         mark(&held(2), |b| &mut b.held[2]);
-        let mut surface_lines = 0;
+        let (mut surface_lines, mut boundary) = (0, 0);
         for line in &mut self.lines {
             line.has_rim = line.batches.iter().any(|b| b.rim != 0);
             line.plain = line.batches.iter().all(|b| b.rim == 0 && b.held == [0; 3]);
@@ -430,7 +434,11 @@ impl<'a> Builder<'a> {
                 line.surface = Some(surface_lines);
                 surface_lines += 1;
             }
+            for batch in line.batches.iter_mut().filter(|b| b.rim | b.surface != 0) {
+                batch.boundary = boundary as u32;
+                boundary += self.width;
+            }
         }
-        surface_lines
+        (surface_lines, boundary)
     }
 }

@@ -15,12 +15,13 @@ use crate::physics::tensor::{Vec3, add, axpy, combined, cross, dot, scale, sub};
 /// Surface index of a node that cannot touch.
 pub const NO_SURFACE: u32 = u32::MAX;
 
-/// Constant data of the node pass; arrays are by place.
+/// Constant data of the node pass.
 pub struct Nodes<T> {
     pub lines: Vec<Line>,
+    /// By place.
     pub mass: Aligned<T>,
     pub inverse_mass: Aligned<T>,
-    /// Index among the surface nodes.
+    /// Index among the surface nodes; this and the arms by [`NodeBatch::boundary`] and lane.
     pub surface_of: Vec<u32>,
     /// Rim nodes' positions relative to the axle in the reference orientation; zero for others.
     pub rim_arms: Field<T>,
@@ -299,7 +300,7 @@ unsafe fn line_in<N: Lanes, const PROBE: bool>(
                     touch::<N, PROBE>(nodes, c, road, (at, batch), x, v, moved, books, sums, &mut contact);
             }
             if batch.rim != 0 {
-                let carried = carried::<N>(nodes, c, at);
+                let carried = carried::<N>(nodes, c, batch.boundary as usize);
                 moved.x = choose3(carried.x, moved.x, batch.rim);
                 moved.v = choose3(carried.v, moved.v, batch.rim);
             }
@@ -337,9 +338,9 @@ impl<N: Lanes> LaneConditions<N> {
 
 /// Rim nodes go where the rim puts them.
 #[inline(always)]
-unsafe fn carried<N: Lanes>(nodes: &Nodes<N::Real>, c: &Conditions<N::Real>, at: usize) -> Moved<N> {
+unsafe fn carried<N: Lanes>(nodes: &Nodes<N::Real>, c: &Conditions<N::Real>, boundary: usize) -> Moved<N> {
     let arms = [0, 1, 2].map(|d| nodes.rim_arms.component(d).as_ptr());
-    let arm = unsafe { [N::load(arms[0], at), N::load(arms[1], at), N::load(arms[2], at)] };
+    let arm = unsafe { arms.map(|arm| N::load(arm, boundary)) };
     let r = [splat3::<N>(c.rotation[0]), splat3(c.rotation[1]), splat3(c.rotation[2])];
     let rate = [splat3::<N>(c.rotation_rate[0]), splat3(c.rotation_rate[1]), splat3(c.rotation_rate[2])];
     Moved {
@@ -377,6 +378,7 @@ unsafe fn touch<N: Lanes, const PROBE: bool>(
         return free;
     }
     let zeros = [[<N::Real as Scalar>::zero(); WIDEST]; 3];
+    let places = (at, batch.boundary as usize);
     let mut batch = Unpacked { x: zeros, v: zeros, new_x: zeros, new_v: zeros };
     for d in 0..3 {
         unsafe {
@@ -386,7 +388,7 @@ unsafe fn touch<N: Lanes, const PROBE: bool>(
             free.v[d].store(batch.new_v[d].as_mut_ptr(), 0);
         }
     }
-    unsafe { touch_each::<N::Real, PROBE>(nodes, c, road, at, inside, &mut batch, books, sums, contact) };
+    unsafe { touch_each::<N::Real, PROBE>(nodes, c, road, places, inside, &mut batch, books, sums, contact) };
     let load = |field: &[[N::Real; WIDEST]; 3], d: usize| unsafe { N::load(field[d].as_ptr(), 0) };
     Moved {
         x: [load(&batch.new_x, 0), load(&batch.new_x, 1), load(&batch.new_x, 2)],
@@ -402,7 +404,7 @@ unsafe fn touch_each<T: Real, const PROBE: bool>(
     nodes: &Nodes<T>,
     c: &Conditions<T>,
     road: &Plane<T>,
-    at: usize,
+    (at, boundary): (usize, usize),
     mut inside: u32,
     batch: &mut Unpacked<T>,
     books: &Books,
@@ -415,7 +417,7 @@ unsafe fn touch_each<T: Real, const PROBE: bool>(
         inside &= inside - 1;
         let (old, before) = (lane_of(&batch.x, lane), lane_of(&batch.v, lane));
         let v_star = lane_of(&batch.new_v, lane);
-        let k = nodes.surface_of[at + lane] as usize;
+        let k = nodes.surface_of[boundary + lane] as usize;
         let inertia = node::inertia(&c.loads, c.step, nodes.mass.slice()[at + lane]);
         let area = || nodes.inverse_area.get(k).copied().unwrap_or(T::zero());
         let Some(t) =

@@ -19,7 +19,7 @@ impl<T: Real> Aligned<T> {
     /// At least `length` zeros, and what a whole vector may read beyond.
     pub fn zeros(length: usize) -> Self {
         let lines = (length + WIDEST).div_ceil(64 / size_of::<T>());
-        // Pages that nothing is written to (arms of nodes that are not the rim's) then take no memory.
+        // Pages that nothing is written to then take no memory.
         Aligned { lines: bytemuck::zeroed_vec(lines), kind: std::marker::PhantomData }
     }
 
