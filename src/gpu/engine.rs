@@ -2,6 +2,7 @@
 
 use super::Gpu;
 use super::buffers::{Buffers, PLAN, vec4};
+use super::chains::Chains;
 use super::compose::{Choice, Kernel, RimKind};
 use super::ensemble::Seat;
 use super::layout::{Real, Wgsl, decode, encode};
@@ -88,6 +89,25 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// Of a model in these chains; `road`: surface nodes can touch, `most_groups`: of an adapter.
+    pub fn of(model: &Model, chains: &Chains, road: bool, most_groups: u32) -> Counts {
+        Counts {
+            elements: model.element_count(),
+            nodes: model.node_count(),
+            surface: if road { model.mesh.surface.len() } else { 0 },
+            rim: model.mesh.rim.len(),
+            chain_groups: chains.groups.len(),
+            slots: chains.slot_count(),
+            stored_slots: chains.stored_slots(),
+            most_groups,
+        }
+    }
+
+    /// Records of a sample's probe.
+    pub fn probe_records(&self) -> usize {
+        4 * self.nodes.div_ceil(GROUP)
+    }
+
     /// Work groups for `items` threads, folded into two dimensions where one is too short.
     pub fn groups(&self, items: usize) -> [u32; 3] {
         let groups = items.div_ceil(GROUP) as u32;

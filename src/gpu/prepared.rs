@@ -63,16 +63,7 @@ impl Prepared {
             lattice: chains.lattice.is_some(),
             joined: chains.is_joined(),
         };
-        let counts = Counts {
-            elements: model.element_count(),
-            nodes: model.node_count(),
-            surface: if choice.road { model.mesh.surface.len() } else { 0 },
-            rim: model.mesh.rim.len(),
-            chain_groups: chains.groups.len(),
-            slots: chains.slot_count(),
-            stored_slots: chains.stored_slots(),
-            most_groups: gpu.report.workgroups,
-        };
+        let counts = Counts::of(&model, &chains, choice.road, gpu.report.workgroups);
         let grain = frame::grain(&model.mesh);
         Ok(Prepared {
             mesh,

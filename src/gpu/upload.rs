@@ -4,7 +4,7 @@ use super::Gpu;
 use super::buffers::{self, Buffers, PLAN, part_stride, step_stride, vec4};
 use super::chains::{Chains, LANES};
 use super::compose::Choice;
-use super::engine::{Counts, GROUP, PARTIALS};
+use super::engine::{Counts, PARTIALS};
 use super::layout::{self, Member, Real, RimSum, SurfaceRecord, Wgsl, encode};
 use super::precision::Precision;
 use crate::model::mesh::Mesh;
@@ -168,7 +168,7 @@ pub fn create(gpu: &Gpu, tables: &[Table], choice: &Choice, counts: &Counts, bod
     if choice.friction.is_some_and(|law| law.needs_area()) {
         parts("inverse_areas", scalar, surface);
     }
-    parts("probes", vector, 4 * nodes.div_ceil(GROUP));
+    parts("probes", vector, counts.probe_records());
     parts("rim_state", layout::RimState::size(real), 1);
     parts("rim_state_probe", layout::RimState::size(real), 1);
     for (name, width) in [

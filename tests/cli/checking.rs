@@ -151,6 +151,19 @@ fn memory_grows_with_the_mesh() {
     );
 }
 
+/// On a GPU a generator's mesh needs no tables, and chains side by side share their slots: the state is 34 B an element, what the
+/// element pass hands to the node pass 39 B, and the rest is little.
+#[test]
+fn a_large_wheel_takes_at_most_120_bytes_an_element() {
+    let place = Place::new();
+    let wheel = shipped("lat100_straight_viscous.toml");
+    let check = check(&place, &[&wheel, "--set", "body.mesh.elements=[352, 40, 32]"]);
+    let elements = check["body"]["elements"].as_u64().unwrap();
+    assert_eq!(elements, 352 * 40 * 32);
+    let each = check["gpu"]["bytes"].as_f64().unwrap() / elements as f64;
+    assert!((80.0..120.0).contains(&each), "{each} B");
+}
+
 #[test]
 fn a_coarse_wheel_is_warned_of() {
     let place = Place::new();
