@@ -26,9 +26,10 @@ HERE = pathlib.Path(__file__).resolve().parent
 CACHE = pathlib.Path(os.environ.get("XDG_CACHE_HOME", pathlib.Path.home() / ".cache")) / "hexroll-sass"
 PACKAGES = ["nvidia-cuda-nvrtc-cu12==12.9.86", "triton==3.1.0"]
 # Of the mesh with 450,560 elements, and of the wheel's material; values change no instruction but divisions by them.
-LARGE = dict(lattice_row=352, lattice_rows=33, lattice_columns=352, lattice_groups=176, lattice_length=6, lattice_layers=7, lattice_last=4)
+LARGE = dict(lattice_row=352, lattice_rows=33, lattice_columns=352, lattice_groups=176, lattice_length=6, lattice_layers=7, lattice_last=4,
+             face_slots=132)
 # Of the wheel with 880 elements in one work group.
-SMALL = dict(lattice_row=44, lattice_rows=5, lattice_columns=44, lattice_groups=3, lattice_length=3, lattice_layers=2, lattice_last=2,
+SMALL = dict(lattice_row=44, lattice_rows=5, lattice_columns=44, lattice_groups=3, lattice_length=3, lattice_layers=2, lattice_last=2, face_slots=134,
              rounds=1, faces=4, words=3960)
 REALS = dict(g0=65.1e6, g1=2.64e6, g2=0.5e6, eta=20.0, mu=1.0, normal_x=0.0, normal_y=0.0, normal_z=1.0, road_offset=0.0,
              road_velocity_x=0.0, road_velocity_y=0.0, road_velocity_z=0.0)
