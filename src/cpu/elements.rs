@@ -48,6 +48,7 @@ pub trait Kernel<T>: Send + Sync {
 struct Composed<F, L, V> {
     law: scene::Law,
     eta: f64,
+    #[cfg_attr(test, expect(dead_code))] // see `Level::detect`
     level: Level,
     kind: PhantomData<(F, L, V)>,
 }
@@ -367,7 +368,8 @@ macro_rules! dispatched {
                 view: &View<$real>,
                 power: Power,
             ) -> Failed {
-                #[cfg(target_arch = "x86_64")]
+                // See `Level::detect`.
+                #[cfg(all(target_arch = "x86_64", not(test)))]
                 {
                     #[target_feature(enable = "avx2,fma")]
                     unsafe fn avx2<F: Formulation, L: LawFamily, V: ViscosityFamily>(

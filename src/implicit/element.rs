@@ -38,6 +38,7 @@ struct Composed<F, L, V> {
     law: scene::Law,
     eta: f64,
     classes: Vec<Class<f64>>,
+    #[cfg_attr(test, expect(dead_code))] // see `Level::detect`
     level: Level,
     kind: PhantomData<(F, L, V)>,
 }
@@ -99,7 +100,8 @@ impl<F: Formulation, L: LawFamily, V: ViscosityFamily> Kernel for Composed<F, L,
     fn tangent(&self, class: usize, x: &Corners<f64>, v: &Corners<f64>, rate: &[f64; 8]) -> Box<Tangent> {
         let mut rows = Box::new([[[0.0; 24]; 3]; 8]);
         let class = &self.classes[class];
-        #[cfg(target_arch = "x86_64")]
+        // See `Level::detect`.
+        #[cfg(all(target_arch = "x86_64", not(test)))]
         {
             use crate::physics::lanes::{F64x4, F64x8};
             #[target_feature(enable = "avx2,fma")]
