@@ -64,7 +64,8 @@ pub struct Row {
     pub element: String,
     pub elements: usize,
     pub nodes: usize,
-    /// `structured`, as generated; or `shuffled`: elements and nodes in random order.
+    /// `structured`, as generated; `shuffled`: elements and nodes in random order; `distorted`: every element of a shape
+    /// of its own.
     pub mesh: String,
     pub contact: bool,
     /// Shear viscosity [Pa s]; 0: elastic.

@@ -8,7 +8,7 @@ use super::gpu_limits::GpuLimits;
 use super::kind::Kind;
 use super::machine::{available_memory, resident_memory};
 use super::report::{Missing, Report, Row, Spread};
-use super::shuffle::shuffled;
+use super::shuffle::{distorted, shuffled};
 use super::wheel::{Roll, Wheel};
 use super::work::{self, Pass};
 use crate::cpu::{Precision, engine_at};
@@ -40,11 +40,15 @@ pub struct Options {
     pub seconds: f64,
 }
 
-/// Numbering of a mesh.
+/// What becomes of the generator's mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Order {
+    /// As it came.
     Structured,
+    /// Elements and nodes in random order.
     Shuffled,
+    /// Every element of a shape of its own.
+    Distorted,
 }
 
 impl Order {
@@ -52,6 +56,7 @@ impl Order {
         match self {
             Order::Structured => "structured",
             Order::Shuffled => "shuffled",
+            Order::Distorted => "distorted",
         }
     }
 }
@@ -116,8 +121,10 @@ impl Bench<'_> {
         }
         let scene = self.wheel.scene()?;
         let mut model = Model::new(&scene)?;
-        if self.order == Order::Shuffled {
-            model = shuffled(&model, &scene.body);
+        match self.order {
+            Order::Structured => {}
+            Order::Shuffled => model = shuffled(&model, &scene.body),
+            Order::Distorted => model = distorted(&model, &scene.body),
         }
         let roll = Roll::new(&model)?;
         let mut timed = Vec::new();

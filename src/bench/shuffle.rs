@@ -1,23 +1,52 @@
-//! The same mesh with its nodes and elements in random order, as an imported mesh might come.
+//! The same mesh with its nodes and elements in random order, or its nodes in other places, as an imported mesh might
+//! come.
 
 use crate::model::Model;
+use crate::physics::tensor::{dot, sub};
 use crate::scene::Body;
+
+/// How far a node of a distorted mesh is moved along each direction, over the shortest edge.
+const DISTORTION: f64 = 0.05;
+
+/// Fixed pseudo-random numbers of 31 bits: xorshift64*, its upper bits.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33
+    }
+}
 
 /// A fixed pseudo-random order of `count` things.
 fn order(count: usize, seed: u64) -> Vec<usize> {
-    let mut state = seed;
-    let mut random = |below: usize| {
-        // Xorshift64*; its upper bits.
-        state ^= state >> 12;
-        state ^= state << 25;
-        state ^= state >> 27;
-        ((state.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) as usize) % below
-    };
+    let mut random = Random(seed);
     let mut order: Vec<usize> = (0..count).collect();
     for i in (1..count).rev() {
-        order.swap(i, random(i + 1));
+        order.swap(i, random.next() as usize % (i + 1));
     }
     order
+}
+
+/// `model` with every node that neither the road nor the rim touches moved a little.
+pub fn distorted(model: &Model, body: &Body) -> Model {
+    let mut mesh = model.mesh.clone();
+    let edges = |hex: &[u32; 8]| [(0, 1), (0, 3), (0, 4)].map(|(a, b)| [hex[a], hex[b]]);
+    let length = |[a, b]: [u32; 2]| {
+        let edge = sub(model.mesh.nodes[b as usize], model.mesh.nodes[a as usize]);
+        dot(edge, edge).sqrt()
+    };
+    let shortest = mesh.hexes.iter().flat_map(edges).map(length).fold(f64::INFINITY, f64::min);
+    let mut stays = vec![false; mesh.nodes.len()];
+    mesh.surface.iter().chain(&mesh.rim).for_each(|&n| stays[n as usize] = true);
+    let mut random = Random(0xb529_7a4d_3f84_d5b5);
+    for (x, _) in mesh.nodes.iter_mut().zip(stays).filter(|(_, stays)| !stays) {
+        let share = |random: &mut Random| 2.0 * random.next() as f64 / f64::from(1u32 << 31) - 1.0;
+        *x = x.map(|c| c + DISTORTION * shortest * share(&mut random));
+    }
+    Model::from_mesh(mesh, body).expect("a twentieth of an edge turns no element inside out")
 }
 
 /// `model` with new numbers for nodes and elements.

@@ -52,7 +52,7 @@ pub struct BenchArgs {
     /// Instructions of the CPU engines: portable, avx2, avx512, best (of this machine; the default)
     #[arg(long, value_delimiter = ',', value_name = "LANES", value_parser = lanes)]
     lanes: Option<Vec<Level>>,
-    /// Numbering of the mesh
+    /// The mesh as generated, with its numbers in random order, with every element of its own shape
     #[arg(long, value_enum, value_delimiter = ',', default_value = "structured")]
     meshes: Vec<Order>,
     /// Independent wheels at the same time: one a thread, in place of threads; on a GPU one a work group (gpu-f32, 880

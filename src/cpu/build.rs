@@ -7,9 +7,10 @@ use super::rim::RimState;
 use super::state::{Aligned, Field};
 use crate::model::mesh::Mesh;
 use crate::model::{Model, areas};
+use crate::physics::element::Class;
 use crate::physics::lanes::Level;
 use crate::physics::scalar::Real;
-use crate::scene::Road;
+use crate::scene::{Element, Road};
 
 /// Data of the node pass for lanes of `width`.
 pub fn nodes<T: NodePass>(
@@ -61,13 +62,18 @@ pub fn stored(model: &Model, layout: &Layout, level: Level, width: usize) -> Sto
     }
 }
 
-/// Reference geometry by lanes, number by number.
+/// Reference geometry by lanes, number by number: those that the element reads.
 pub fn shape_table<T: Real>(model: &Model, layout: &Layout, width: usize) -> Aligned<T> {
-    let length = model.classes[0].numbers().len();
+    let numbers = match model.element {
+        Element::Q1p0 | Element::Full => Class::<T>::OF_POINTS,
+        Element::UniformGradient { .. } => Class::<T>::OF_MEAN,
+    };
+    let length = numbers.len();
     let mut table = Aligned::zeros(layout.shapes.len() * length * width);
     for (lanes, part) in layout.shapes.iter().zip(table.slice_mut().chunks_exact_mut(length * width)) {
         for (lane, class) in lanes[..width].iter().enumerate() {
-            for (i, number) in model.classes[*class as usize].numbers().iter().enumerate() {
+            let of_class = &model.classes[*class as usize].numbers()[numbers.clone()];
+            for (i, number) in of_class.iter().enumerate() {
                 part[i * width + lane] = T::from_f64(*number);
             }
         }

@@ -164,9 +164,12 @@ fn next_lanes(batch: &Batch) -> u32 {
 
 /// Reference geometry of a batch's lanes.
 #[inline(always)]
-fn shape_at<N: Lanes>(elements: &Elements<N::Real>, entry: u32) -> LaneShapes<'_, N::Real> {
-    let length = Class::<N>::NUMBERS * N::WIDTH;
-    LaneShapes(&elements.shapes.slice()[entry as usize * length..][..length])
+fn shape_at<N: Lanes, F: Formulation>(elements: &Elements<N::Real>, entry: u32) -> LaneShapes<'_, N::Real> {
+    let length = F::NUMBERS.len() * N::WIDTH;
+    LaneShapes {
+        numbers: &elements.shapes.slice()[entry as usize * length..][..length],
+        first: F::NUMBERS.start,
+    }
 }
 
 /// An item in lanes `N`, batch by batch; inlined into a function that has their instructions.
@@ -199,7 +202,7 @@ unsafe fn forces_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
         let at = b * N::WIDTH;
         let count = N::WIDTH.min(all - at);
         unsafe {
-            let shape = shape_at::<N>(elements, shape);
+            let shape = shape_at::<N, F>(elements, shape);
             let still = [[N::zero(); 3]; 8];
             let (x, v) = match (item, &copy) {
                 (Item::Rows(rows), _) => {

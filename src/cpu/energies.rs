@@ -11,13 +11,14 @@ use crate::physics::lanes::{F64x4, F64x8};
 use crate::physics::material::Law;
 use crate::physics::scalar::Real;
 use crate::scene;
+use std::sync::Arc;
 
 /// The elements, and their geometry by shape class.
 pub struct Stored {
     pub element: scene::Element,
     pub law: scene::Law,
     pub level: Level,
-    pub classes: Vec<Class<f64>>,
+    pub classes: Arc<[Class<f64>]>,
     /// Classes by lane of the table of shapes, whose batches have so many lanes.
     pub shapes: Vec<[u32; WIDEST]>,
     pub width: usize,

@@ -14,6 +14,7 @@ use super::rows::{Row, Rows, runs};
 use crate::model::Model;
 use crate::model::chains::{BACK, Chain, FRONT, chains};
 use crate::physics::lanes::WIDEST;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// Most groups, and fewest elements of one.
@@ -119,7 +120,7 @@ pub struct Layout {
     pub lines: Vec<Line>,
     /// Items by group.
     pub groups: Vec<Range<usize>>,
-    /// The table of shapes: the class of every lane. The first entries are the model's classes, the same in all lanes.
+    /// The table of shapes: the class of every lane.
     pub shapes: Vec<[u32; WIDEST]>,
     pub surface_lines: usize,
     /// Lanes of batches of nodes with rim or surface nodes.
@@ -156,13 +157,23 @@ struct Builder<'a> {
     /// Elements waiting for a loose batch.
     waiting: Vec<u32>,
     shapes: Vec<[u32; WIDEST]>,
+    /// Entries of that table.
+    entries: HashMap<[u32; WIDEST], u32>,
 }
 
 impl<'a> Builder<'a> {
     fn new(model: &'a Model, width: usize) -> Self {
         let at = vec![NOWHERE; model.node_count()];
-        let shapes = (0..model.classes.len() as u32).map(|class| [class; WIDEST]).collect();
-        Builder { model, width, items: Vec::new(), lines: Vec::new(), at, waiting: Vec::new(), shapes }
+        Builder {
+            model,
+            width,
+            items: Vec::new(),
+            lines: Vec::new(),
+            at,
+            waiting: Vec::new(),
+            shapes: Vec::new(),
+            entries: HashMap::new(),
+        }
     }
 
     fn hex(&self, e: u32) -> &'a [u32; 8] {
@@ -248,13 +259,14 @@ impl<'a> Builder<'a> {
         line
     }
 
+    /// The entry of the table of shapes for these elements, one a lane; lanes beyond the last repeat it.
     fn shape_of(&mut self, batch: &[u32]) -> u32 {
-        let class = |e: u32| self.model.class_of[e as usize];
-        if batch.iter().all(|e| class(*e) == class(batch[0])) {
-            return class(batch[0]);
-        }
-        self.shapes.push(std::array::from_fn(|lane| class(batch[lane.min(batch.len() - 1)])));
-        self.shapes.len() as u32 - 1
+        let class = |lane: usize| self.model.class_of[batch[lane.min(batch.len() - 1)] as usize];
+        let lanes = std::array::from_fn(class);
+        *self.entries.entry(lanes).or_insert_with(|| {
+            self.shapes.push(lanes);
+            self.shapes.len() as u32 - 1
+        })
     }
 
     fn end_loose(&mut self) {

@@ -10,6 +10,7 @@ use crate::error::{Error, Result};
 use crate::physics::element::Class;
 use crate::scene::{Body, Element, Law, Lumping, Scene};
 use mesh::Mesh;
+use std::sync::Arc;
 
 /// The discrete body.
 #[derive(Debug, Clone)]
@@ -24,7 +25,7 @@ pub struct Model {
     /// Lumped nodal mass [kg], shape `[node_count]`.
     pub mass: Vec<f64>,
     /// Distinct reference shapes, and which one each element has, shape `[element_count]`.
-    pub classes: Vec<Class<f64>>,
+    pub classes: Arc<[Class<f64>]>,
     pub class_of: Vec<u32>,
     /// Element corners at each node: `corners[corner_start[n]..corner_start[n + 1]]` holds 8 element + corner.
     pub corner_start: Vec<u32>,
@@ -66,7 +67,7 @@ impl Model {
             density,
             lumping,
             mass,
-            classes,
+            classes: classes.into(),
             class_of,
             corner_start,
             corners,

@@ -1,8 +1,9 @@
 use super::hex8::{self, Corners, Shape};
 use super::q1p0::{points, pointwise_energy};
-use super::{Energy, Force, Formulation};
+use super::{Class, Energy, Force, Formulation};
 use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::Scalar;
+use std::ops::Range;
 
 /// 2x2x2 points for everything: locks near incompressibility, and shows it.
 pub type Full = FullOf<false>;
@@ -15,6 +16,8 @@ pub type ExtrudedFull = FullOf<true>;
 pub struct FullOf<const EXTRUDED: bool>;
 
 impl<const EXTRUDED: bool> Formulation for FullOf<EXTRUDED> {
+    const NUMBERS: Range<usize> = Class::<f64>::OF_POINTS;
+
     #[inline(always)]
     fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
         law: &L,

@@ -11,6 +11,7 @@ use crate::physics::tensor::{
     Mat3, Metric, Sym3, Vec3, add, axpy, cofactor, combined, cross, det, dot, neg, scale, sub,
 };
 use crate::scene::Lumping;
+use std::ops::Range;
 
 /// One vector a corner, numbered as in [`crate::model::mesh`].
 pub type Corners<S> = [Vec3<S>; 8];
@@ -262,6 +263,9 @@ pub struct Class<S> {
 impl<S> Class<S> {
     /// Numbers of a class.
     pub const NUMBERS: usize = 8 * (6 + 1 + 1) + 2 + 8 * 3 + 4 * 3 + 2 + 9;
+    /// Of these, what elements with points need, and what those with a mean gradient need.
+    pub const OF_POINTS: Range<usize> = 0..66;
+    pub const OF_MEAN: Range<usize> = 64..Self::NUMBERS;
 
     /// All of them, in the order of the fields.
     #[inline(always)]
@@ -347,14 +351,18 @@ impl<N: Lanes> Shape<N> for SameShape<'_, N::Real> {
     }
 }
 
-/// A class a lane: the numbers of all of them, vector by vector.
+/// A class a lane: the numbers of all of them, vector by vector, from number `first` on.
 #[derive(Debug, Clone, Copy)]
-pub struct LaneShapes<'a, T>(pub &'a [T]);
+pub struct LaneShapes<'a, T> {
+    pub numbers: &'a [T],
+    pub first: usize,
+}
 
 impl<N: Lanes> Shape<N> for LaneShapes<'_, N::Real> {
     #[inline(always)]
     fn number(&self, i: usize) -> N {
-        let vector = &self.0[i * N::WIDTH..(i + 1) * N::WIDTH];
+        let at = (i - self.first) * N::WIDTH;
+        let vector = &self.numbers[at..at + N::WIDTH];
         // SAFETY: it is as long as a vector.
         unsafe { N::load(vector.as_ptr(), 0) }
     }

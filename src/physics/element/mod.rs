@@ -22,6 +22,7 @@ pub use uniform_gradient::{ExtrudedUniformGradient, UniformGradient};
 
 use super::material::{Law, Viscosity};
 use super::scalar::Scalar;
+use std::ops::Range;
 
 /// What the force pass of an element returns.
 #[derive(Debug, Clone, Copy)]
@@ -47,6 +48,9 @@ pub struct Energy<S> {
 
 /// An element formulation.
 pub trait Formulation: Copy + Send + Sync + 'static {
+    /// Those of [`Class::numbers`] that the force reads.
+    const NUMBERS: Range<usize>;
+
     /// Internal force of one element (or one lane batch) from corner positions and half-step velocities.
     fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
         law: &L,

@@ -1,8 +1,9 @@
 use super::hex8::{self, Corners, Shape};
-use super::{Energy, Force, Formulation};
+use super::{Class, Energy, Force, Formulation};
 use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::Scalar;
 use crate::physics::tensor::{InPlane, Metric, Sym3, axpy, cofactor, combined, det, dot, scale};
+use std::ops::Range;
 
 /// 2x2x2 points for the isochoric part, one element pressure p = U'(v/V) (Simo, Taylor & Pister's mean
 /// dilatation): no volumetric locking. dv/dx_a comes from cof A.
@@ -17,6 +18,8 @@ pub type ExtrudedQ1p0 = Q1p0Of<true>;
 pub struct Q1p0Of<const EXTRUDED: bool>;
 
 impl<const EXTRUDED: bool> Formulation for Q1p0Of<EXTRUDED> {
+    const NUMBERS: Range<usize> = Class::<f64>::OF_POINTS;
+
     #[inline(always)]
     fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
         law: &L,

@@ -1,10 +1,11 @@
 use super::hex8::{self, Corners, HOURGLASS, Shape};
-use super::{Energy, Force, Formulation};
+use super::{Class, Energy, Force, Formulation};
 use crate::physics::material::{Law, Viscosity};
 use crate::physics::scalar::Scalar;
 use crate::physics::tensor::{
     Identity, Mat3, Vec3, add, axpy, cofactor, combined, det, dot, neg, scale, sub,
 };
+use std::ops::Range;
 
 /// Volume-averaged gradients (Flanagan & Belytschko 1981) and hourglass stiffness on gamma-vectors formed on the
 /// reference shape, orthogonal to every affine field: a rigid rotation makes no hourglass force.
@@ -17,6 +18,8 @@ use crate::physics::tensor::{
 pub struct UniformGradient;
 
 impl Formulation for UniformGradient {
+    const NUMBERS: Range<usize> = Class::<f64>::OF_MEAN;
+
     #[inline(always)]
     fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
         law: &L,
@@ -54,6 +57,8 @@ impl Formulation for UniformGradient {
 pub struct ExtrudedUniformGradient;
 
 impl Formulation for ExtrudedUniformGradient {
+    const NUMBERS: Range<usize> = Class::<f64>::OF_MEAN;
+
     #[inline(always)]
     fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
         law: &L,
