@@ -68,3 +68,50 @@ pub fn shuffled(model: &Model, body: &Body) -> Model {
     mesh.hexes = elements.iter().map(|&e| model.mesh.hexes[e].map(|n| renamed(&n))).collect();
     Model::from_mesh(mesh, body).expect("the order of elements does not turn one inside out")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::wheel::Wheel;
+
+    fn wheel() -> (Model, Body) {
+        let wheel = Wheel { elements: 880, element: "q1p0", contact: true, viscosity: None };
+        let scene = wheel.scene().unwrap();
+        (Model::new(&scene).unwrap(), scene.body)
+    }
+
+    /// Only nodes inside move, and no two elements with one of them are alike.
+    #[test]
+    fn a_distorted_mesh_has_as_many_shapes_as_elements() {
+        let (model, body) = wheel();
+        let other = distorted(&model, &body);
+        assert_eq!(other.mesh.hexes, model.mesh.hexes);
+        let outside = || model.mesh.surface.iter().chain(&model.mesh.rim).map(|&n| n as usize);
+        assert!(outside().all(|n| other.mesh.nodes[n] == model.mesh.nodes[n]));
+        let mut is_inside = vec![true; model.node_count()];
+        outside().for_each(|n| is_inside[n] = false);
+        let moved = model.mesh.hexes.iter().filter(|h| h.iter().any(|&n| is_inside[n as usize])).count();
+        assert!(moved > 800, "{moved} elements have a node inside");
+        assert!(
+            (moved..=moved + model.classes.len()).contains(&other.classes.len()),
+            "{}",
+            other.classes.len()
+        );
+        assert!(!other.is_extruded());
+    }
+
+    /// New numbers, the same body: elements at the same places.
+    #[test]
+    fn a_shuffled_mesh_is_the_same_body() {
+        let (model, body) = wheel();
+        let other = shuffled(&model, &body);
+        let corners = |m: &Model| {
+            let mut all: Vec<_> =
+                m.mesh.hexes.iter().map(|h| h.map(|n| m.mesh.nodes[n as usize].map(f64::to_bits))).collect();
+            all.sort_unstable();
+            all
+        };
+        assert!(other.mesh.hexes != model.mesh.hexes && corners(&other) == corners(&model));
+        assert_eq!(other.mesh.surface.len(), model.mesh.surface.len());
+    }
+}

@@ -454,3 +454,37 @@ impl<'a> Builder<'a> {
         (surface_lines, boundary)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use std::path::Path;
+
+    /// Batches of one class, however many, share an entry; classes that no batch has to itself have none.
+    #[test]
+    fn the_table_of_shapes_has_what_batches_need_and_no_more() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/lat100_straight.toml");
+        let ring = Model::new(&Scene::load(&file, &[]).unwrap()).unwrap();
+        let entries = |model: &Model| {
+            let layout = Layout::new(model, true, 8);
+            let batches = layout.items.iter().flat_map(Item::shapes);
+            assert!(batches.clone().all(|entry| (*entry as usize) < layout.shapes.len()));
+            let mut used: Vec<u32> = batches.copied().collect();
+            let count = used.len();
+            used.sort_unstable();
+            used.dedup();
+            assert_eq!(used.len(), layout.shapes.len());
+            (layout.shapes.len(), count)
+        };
+        // A class a layer of the ring, and batches from one layer's last elements into the next one's first.
+        let (shapes, batches) = entries(&ring);
+        assert!(shapes < 2 * ring.classes.len() && batches >= 110, "{shapes} of {batches}");
+        // As many classes as elements: no entry but the batches'.
+        let mut own = ring.clone();
+        own.class_of = (0..own.element_count() as u32).collect();
+        own.classes = own.class_of.iter().map(|_| ring.classes[0]).collect();
+        let (shapes, batches) = entries(&own);
+        assert_eq!(shapes, batches);
+    }
+}
