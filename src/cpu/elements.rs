@@ -54,6 +54,8 @@ struct Composed<F, L, V> {
 }
 
 /// Corners of a batch copied together, with nothing in common: vector c of a component holds corner c of every lane.
+/// On cache lines: what is stored is loaded again at once.
+#[repr(align(64))]
 struct Copied<T> {
     x: [[T; 8 * WIDEST]; 3],
     v: [[T; 8 * WIDEST]; 3],
@@ -117,43 +119,68 @@ fn in_precision<T: Real>(copy: &mut Copied<f64>) -> &mut Copied<T> {
     unsafe { &mut *std::ptr::from_mut(copy).cast() }
 }
 
-/// Corners of loose elements, where they were copied to.
-#[inline(always)]
-unsafe fn copied_corners<N: Lanes>(field: &[[N::Real; 8 * WIDEST]; 3]) -> Corners<N> {
-    let mut x = [[N::zero(); 3]; 8];
-    for c in 0..8 {
-        for d in 0..3 {
-            x[c][d] = unsafe { N::load(field[d].as_ptr(), c * N::WIDTH) };
-        }
-    }
-    x
+/// Where the corners of a batch lie: a vector a corner and direction, `at[corner]` numbers from the start of the
+/// direction's array.
+#[derive(Clone, Copy)]
+struct Places {
+    at: [usize; 8],
 }
 
-/// Corners of a batch: vectors of the lines of its row and, in the lanes behind its last element, of the next row's.
-#[inline(always)]
-unsafe fn row_corners<N: Lanes>(rows: &Rows, batch: &Batch, field: &[*mut N::Real; 3]) -> Corners<N> {
-    let mut x = [[N::zero(); 3]; 8];
-    unsafe {
-        let row = rows.rows.get_unchecked(batch.row());
+impl Places {
+    /// On the lines of a row.
+    #[inline(always)]
+    fn on_row(row: &Row, batch: &Batch) -> Places {
+        let mut at = [0; 8];
         for k in 0..4 {
+            at[BACK[k]] = row.x[k] + batch.at();
+            at[FRONT[k]] = row.x[k] + batch.at() + 1;
+        }
+        Places { at }
+    }
+
+    /// In a copy.
+    #[inline(always)]
+    fn copied(width: usize) -> Places {
+        Places { at: std::array::from_fn(|c| c * width) }
+    }
+
+    /// Loaded without a branch between: in branches all of them would be kept at once, twice as many as there are
+    /// registers.
+    #[inline(always)]
+    unsafe fn load<N: Lanes>(&self, field: &[*const N::Real; 3]) -> Corners<N> {
+        let mut x = [[N::zero(); 3]; 8];
+        for c in 0..8 {
             for d in 0..3 {
-                x[BACK[k]][d] = N::load(field[d], row.x[k] + batch.at());
-                x[FRONT[k]][d] = N::load(field[d], row.x[k] + batch.at() + 1);
+                x[c][d] = unsafe { N::load(field[d], self.at[c]) };
             }
         }
-        if batch.next() > 0 {
-            let row = rows.rows.get_unchecked(batch.row() + 1);
-            let mask = next_lanes(batch);
+        x
+    }
+}
+
+/// Copies the corners of a batch that goes on into the next row: vectors of the lines of its row and, in the lanes behind its last
+/// element, of the next row's. Few batches do.
+#[inline(always)]
+unsafe fn copy_across<N: Lanes>(
+    rows: &Rows,
+    batch: &Batch,
+    field: &[*mut N::Real; 3],
+    copy: &mut [[N::Real; 8 * WIDEST]; 3],
+) {
+    unsafe {
+        let row = rows.rows.get_unchecked(batch.row());
+        let next = rows.rows.get_unchecked(batch.row() + 1);
+        let mask = next_lanes(batch);
+        for (field, copy) in field.iter().zip(copy) {
             for k in 0..4 {
-                for d in 0..3 {
-                    let from = field[d].wrapping_add(row.x[k]).wrapping_sub(batch.lanes());
-                    x[BACK[k]][d] = x[BACK[k]][d].load_over(from, mask);
-                    x[FRONT[k]][d] = x[FRONT[k]][d].load_over(from.wrapping_add(1), mask);
-                }
+                let from = field.wrapping_add(next.x[k]).wrapping_sub(batch.lanes());
+                let back = N::load(*field, row.x[k] + batch.at()).load_over(from, mask);
+                let front = N::load(*field, row.x[k] + batch.at() + 1).load_over(from.wrapping_add(1), mask);
+                back.store(copy.as_mut_ptr(), BACK[k] * N::WIDTH);
+                front.store(copy.as_mut_ptr(), FRONT[k] * N::WIDTH);
             }
         }
     }
-    x
 }
 
 /// Lanes of a batch that are elements of the next row.
@@ -188,10 +215,9 @@ unsafe fn forces_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
     let viscosity = <V::Viscosity<N> as Viscosity<N>>::new(composed.eta);
     let viscous = <V::Viscosity<N> as Viscosity<N>>::ON;
     let item = &elements.items[item];
-    let mut held: Option<Box<Copied<f64>>> = None;
-    let mut copy: Option<&mut Copied<N::Real>> = None;
+    let mut held = COPY.take().unwrap_or_default();
+    let copy: &mut Copied<N::Real> = in_precision(&mut held);
     if let Item::Loose(loose) = item {
-        let copy = copy.insert(in_precision(held.insert(COPY.take().unwrap_or_default())));
         unsafe { copy.read(loose, view, N::WIDTH, viscous) };
     }
     let mut failed = Failed(None);
@@ -203,29 +229,40 @@ unsafe fn forces_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
         let count = N::WIDTH.min(all - at);
         unsafe {
             let shape = shape_at::<N, F>(elements, shape);
-            let still = [[N::zero(); 3]; 8];
-            let (x, v) = match (item, &copy) {
-                (Item::Rows(rows), _) => {
+            let copies = |field: &[[N::Real; 8 * WIDEST]; 3]| field.each_ref().map(|c| c.as_ptr());
+            let (places, x, v) = match item {
+                Item::Rows(rows) => {
                     let batch = rows.batches.get_unchecked(b);
-                    let v = if viscous { row_corners::<N>(rows, batch, &view.v) } else { still };
-                    (row_corners::<N>(rows, batch, &view.x), v)
+                    if batch.next() > 0 {
+                        copy_across::<N>(rows, batch, &view.x, &mut copy.x);
+                        if viscous {
+                            copy_across::<N>(rows, batch, &view.v, &mut copy.v);
+                        }
+                        (Places::copied(N::WIDTH), copies(&copy.x), copies(&copy.v))
+                    } else {
+                        let row = rows.rows.get_unchecked(batch.row());
+                        (
+                            Places::on_row(row, batch),
+                            view.x.map(|x| x.cast_const()),
+                            view.v.map(|v| v.cast_const()),
+                        )
+                    }
                 }
-                (Item::Loose(_), Some(copy)) => (copied_corners::<N>(&copy.x), copied_corners::<N>(&copy.v)),
-                (Item::Loose(_), None) => (still, still),
+                Item::Loose(_) => (Places::copied(N::WIDTH), copies(&copy.x), copies(&copy.v)),
             };
-            let force = F::force(&law, &viscosity, &shape, &x, &v);
-            match (item, &mut copy) {
-                (Item::Rows(rows), _) => {
+            let v = if viscous { places.load::<N>(&v) } else { [[N::zero(); 3]; 8] };
+            let force = F::force(&law, &viscosity, &shape, &places.load::<N>(&x), &v);
+            match item {
+                Item::Rows(rows) => {
                     add_to_rows(rows, rows.batches.get_unchecked(b), view, &force.f, &mut carry);
                 }
-                (Item::Loose(_), Some(copy)) => {
+                Item::Loose(_) => {
                     for c in 0..8 {
                         for d in 0..3 {
                             force.f[c][d].store(copy.f[d].as_mut_ptr(), c * N::WIDTH);
                         }
                     }
                 }
-                (Item::Loose(_), None) => {}
             }
             // Lanes beyond the last element compute with other nodes: they say nothing.
             if viscous {
@@ -238,14 +275,14 @@ unsafe fn forces_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
         }
     }
     unsafe {
-        if let (Item::Loose(loose), Some(copy)) = (item, &copy) {
+        if let Item::Loose(loose) = item {
             copy.add(loose, view, N::WIDTH);
-            COPY.set(held);
         }
         if viscous {
             (power_sum * N::from_f64(power.weight)).add_to(power.sums);
         }
     }
+    COPY.set(Some(held));
     failed
 }
 
