@@ -88,7 +88,7 @@ pub(super) fn points<
         };
     }
     // With its number known a point's lines are registers, or places on the stack, and no addresses to be computed.
-    // Unrolled code takes long to compile: it is kept to the case that most runs are.
+    // Unrolled code takes long to compile: `full` on elements of any shape goes without.
     if S::UNROLLED && (EXTRUDED || !POINTWISE) {
         point!(0, 0);
         point!(1, 0);
