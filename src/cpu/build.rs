@@ -7,10 +7,10 @@ use super::rim::RimState;
 use super::state::{Aligned, Field};
 use crate::model::mesh::Mesh;
 use crate::model::{Model, areas};
-use crate::physics::element::Class;
 use crate::physics::lanes::Level;
 use crate::physics::scalar::Real;
-use crate::scene::{Element, Road};
+use crate::scene::Road;
+use std::ops::Range;
 
 /// Data of the node pass for lanes of `width`.
 pub fn nodes<T: NodePass>(
@@ -62,12 +62,13 @@ pub fn stored(model: &Model, layout: &Layout, level: Level, width: usize) -> Sto
     }
 }
 
-/// Reference geometry by lanes, number by number: those that the element reads.
-pub fn shape_table<T: Real>(model: &Model, layout: &Layout, width: usize) -> Aligned<T> {
-    let numbers = match model.element {
-        Element::Q1p0 | Element::Full => Class::<T>::OF_POINTS,
-        Element::UniformGradient { .. } => Class::<T>::OF_MEAN,
-    };
+/// Reference geometry by lanes: these numbers of every class, one after the other.
+pub fn shape_table<T: Real>(
+    model: &Model,
+    layout: &Layout,
+    width: usize,
+    numbers: Range<usize>,
+) -> Aligned<T> {
     let length = numbers.len();
     let mut table = Aligned::zeros(layout.shapes.len() * length * width);
     for (lanes, part) in layout.shapes.iter().zip(table.slice_mut().chunks_exact_mut(length * width)) {

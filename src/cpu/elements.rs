@@ -17,6 +17,7 @@ use crate::physics::tensor::Vec3;
 use crate::scene;
 use std::cell::Cell;
 use std::marker::PhantomData;
+use std::ops::Range;
 
 /// Constant data of the element passes.
 pub struct Elements<T> {
@@ -43,6 +44,9 @@ pub trait Kernel<T>: Send + Sync {
     /// # Safety
     /// No other thread touches the slots of the item's group or these sums, nor writes the item's nodes.
     unsafe fn forces(&self, elements: &Elements<T>, item: usize, view: &View<T>, power: Power) -> Failed;
+
+    /// The numbers of a class that it reads: [`Formulation::NUMBERS`].
+    fn numbers(&self) -> Range<usize>;
 }
 
 struct Composed<F, L, V> {
@@ -401,6 +405,10 @@ fn first_failed<N: Lanes>(min_j: N, elements: &[u32]) -> Option<usize> {
 macro_rules! dispatched {
     ($real:ty, $portable:ty, $avx2:ident, $avx512:ident) => {
         impl<F: Formulation, L: LawFamily, V: ViscosityFamily> Kernel<$real> for Composed<F, L, V> {
+            fn numbers(&self) -> Range<usize> {
+                F::NUMBERS
+            }
+
             unsafe fn forces(
                 &self,
                 elements: &Elements<$real>,

@@ -101,8 +101,10 @@ where
         let Layout { items, lines, groups, .. } = &mut layout;
         let lengths: Vec<usize> = lines.iter().map(|line| line.length(width)).collect();
         let slots = slots::lay(items, lines, groups, &shares, &lengths);
+        let kernel = elements::compose(model, level);
+        let shapes = shape_table(model, &layout, width, kernel.numbers());
         let mut engine = CpuEngine {
-            kernel: elements::compose(model, level),
+            kernel,
             power: vec![0.0; layout.items.len() * WIDEST],
             sums: vec![LineSums::default(); layout.lines.len()],
             contact: [0, 1].map(|_| vec![LineContact::default(); layout.surface_lines]),
@@ -123,7 +125,7 @@ where
             v: Field::zeros(layout.places),
             f: Field::zeros(slots),
             before: [Field::zeros(layout.places), Field::zeros(layout.places)],
-            elements: Elements { shapes: shape_table(model, &layout, width), items: layout.items },
+            elements: Elements { shapes, items: layout.items },
             place: layout.place,
             shares,
             road: scene.road,

@@ -231,7 +231,7 @@ fn buffers(programs: &[Program], model: &Model, chains: &Chains) -> Vec<Buffer> 
 /// Entries of an array on this mesh; `None`: it is bound to other arrays, or does not grow with the mesh.
 fn entries(name: &str, model: &Model, chains: &Chains) -> Option<u64> {
     let mesh = &model.mesh;
-    let counts = Counts::of(model, chains, true, u32::MAX);
+    let counts = || Counts::of(model, chains, true, u32::MAX);
     let count = match name {
         "chain_groups" => chains.groups.len(),
         "chain_nodes" => chains.nodes.len(),
@@ -248,8 +248,8 @@ fn entries(name: &str, model: &Model, chains: &Chains) -> Option<u64> {
         "rim_nodes" | "rim_arms" | "rim_sums" => mesh.rim.len(),
         "surface_nodes" | "surface_sums" | "contact_states" | "inverse_areas" => mesh.surface.len(),
         "surface_states" => 2 * mesh.surface.len(),
-        "contact_steps" => counts.contact_records(),
-        "probes" => counts.probe_records(),
+        "contact_steps" => counts().contact_records(),
+        "probes" => counts().probe_records(),
         _ => return None,
     };
     Some(count as u64)
