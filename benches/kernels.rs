@@ -10,6 +10,7 @@ use hexroll::bench::wheel::{Roll, Wheel};
 use hexroll::cpu::{Precision, engine_at};
 use hexroll::model::Model;
 use hexroll::physics::lanes::Level;
+use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
 use hexroll::run::stability;
 use hexroll::scene::{Law, Scene};
 use std::time::Duration;
@@ -18,9 +19,9 @@ const PRECISIONS: [(Precision, &str); 2] = [(Precision::F64, "f64"), (Precision:
 const ELEMENTS: [&str; 3] = ["q1p0", "uniform-gradient", "full"];
 /// The rubber, and two laws near it that need I2 or a logarithmic volume term.
 const LAWS: [Law; 3] = [
-    Law::NeoHookean { g0: 65.1e6, g1: 2.64e6 },
-    Law::MooneyRivlin { g0: 65.1e6, g1: 2.0e6, g2: 0.64e6 },
-    Law::MooneyRivlinEq4 { g0: 63.34e6, g1: 2.0e6, g2: 0.64e6 },
+    Law::NeoHookean(NeoHookean { g0: 65.1e6, g1: 2.64e6 }),
+    Law::MooneyRivlin(MooneyRivlin { g0: 65.1e6, g1: 2.0e6, g2: 0.64e6 }),
+    Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0: 63.34e6, g1: 2.0e6, g2: 0.64e6 }),
 ];
 
 fn scene(elements: usize, element: &str, viscosity: Option<f64>) -> Scene {

@@ -11,6 +11,7 @@ use std::sync::LazyLock;
 use hexroll::gpu::compose::{Choice, Kernel, PARTS, RimKind};
 use hexroll::gpu::layout::{self, Real, Wgsl};
 use hexroll::gpu::{Counts, Precision};
+use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
 use hexroll::scene::{Element, Friction, Law};
 use naga::{ArraySize, Block, Expression, Function, GlobalVariable, Handle, Module, Statement, TypeInner};
 
@@ -42,9 +43,9 @@ const ROADS: [(bool, Option<Friction>, bool); 6] = [
 fn choices() -> Vec<Choice> {
     let elements = [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
     let laws = [
-        Law::NeoHookean { g0: 1.0, g1: 1.0 },
-        Law::MooneyRivlin { g0: 1.0, g1: 1.0, g2: 1.0 },
-        Law::MooneyRivlinEq4 { g0: 1.0, g1: 1.0, g2: 1.0 },
+        Law::NeoHookean(NeoHookean { g0: 1.0, g1: 1.0 }),
+        Law::MooneyRivlin(MooneyRivlin { g0: 1.0, g1: 1.0, g2: 1.0 }),
+        Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0: 1.0, g1: 1.0, g2: 1.0 }),
     ];
     let mut all = Vec::new();
     for element in elements {

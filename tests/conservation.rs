@@ -5,6 +5,7 @@ mod common;
 use common::{Driver, ELEMENTS, GROUND, block, wheel};
 use hexroll::engine::{StageSetup, Window, Works};
 use hexroll::model::Model;
+use hexroll::physics::material::MooneyRivlin;
 use hexroll::physics::tensor::{Vec3, add, cross, scale, sub};
 use hexroll::run::stability;
 use hexroll::scene::{Drive, Element, Friction, Law, Scene};
@@ -117,7 +118,7 @@ fn vibrating(scene: &Scene, strain: f64) -> (Model, Driver) {
 fn soft_block() -> Scene {
     let mut scene = block([0.02; 3], [4; 3]);
     // Compressible, so that the smooth axial mode dominates.
-    scene.body.law = Law::MooneyRivlin { g0: 5e6, g1: 2e6, g2: 0.64e6 };
+    scene.body.law = Law::MooneyRivlin(MooneyRivlin { g0: 5e6, g1: 2e6, g2: 0.64e6 });
     scene
 }
 

@@ -3,15 +3,11 @@
 
 mod common;
 
-use common::{ELEMENTS, G, LAWS, Random, block, close, largest, times, wheel};
+use common::{ELEMENTS, G, Random, block, close, largest, laws, times, wheel};
 use hexroll::model::Model;
 use hexroll::model::mesh::{Mesh, SIGNS};
-use hexroll::physics::element::{
-    Class, Corners, Energy, ExtrudedQ1p0, Force, Formulation, Full, Q1p0, UniformGradient,
-};
-use hexroll::physics::material::{
-    Inviscid, KelvinVoigt, Law as Material, MooneyRivlin, MooneyRivlinEq4, NeoHookean, Viscosity,
-};
+use hexroll::physics::element::{Class, Compose, Composition, Corners, Energy, Force, Formulation};
+use hexroll::physics::material::{Hyperelastic, Viscosity};
 use hexroll::physics::tensor::{Mat3, Vec3, add, cross, dot};
 use hexroll::scene::{Body, Element, Law, Lumping};
 
@@ -19,52 +15,44 @@ const EDGE: f64 = 2e-3;
 const ETA: f64 = 20.0;
 const HOURGLASS: f64 = 0.15;
 
-fn force_of<F: Formulation, L: Material<f64>>(
-    law: &Law,
-    c: &Class<f64>,
-    x: &Corners<f64>,
-    v: Option<&Corners<f64>>,
-) -> Force<f64> {
-    let still = [[0.0; 3]; 8];
-    match v {
-        None => F::force(&L::new(law), &<Inviscid as Viscosity<f64>>::new(0.0), c, x, &still),
-        Some(v) => F::force(&L::new(law), &KelvinVoigt::new(ETA), c, x, v),
-    }
+struct ForceAt<'a> {
+    class: &'a Class<f64>,
+    x: &'a Corners<f64>,
+    v: &'a Corners<f64>,
 }
 
-/// Runs `$function::<formulation, law>` for the choices of a scene.
-macro_rules! composed {
-    ($element:expr, $law:expr, $function:ident($($argument:expr),*)) => {
-        match ($element, $law) {
-            (Element::Q1p0, Law::NeoHookean { .. }) => $function::<Q1p0, NeoHookean<f64>>($($argument),*),
-            (Element::Q1p0, Law::MooneyRivlin { .. }) => $function::<Q1p0, MooneyRivlin<f64>>($($argument),*),
-            (Element::Q1p0, Law::MooneyRivlinEq4 { .. }) => $function::<Q1p0, MooneyRivlinEq4<f64>>($($argument),*),
-            (Element::Full, Law::NeoHookean { .. }) => $function::<Full, NeoHookean<f64>>($($argument),*),
-            (Element::Full, Law::MooneyRivlin { .. }) => $function::<Full, MooneyRivlin<f64>>($($argument),*),
-            (Element::Full, Law::MooneyRivlinEq4 { .. }) => $function::<Full, MooneyRivlinEq4<f64>>($($argument),*),
-            (_, Law::NeoHookean { .. }) => $function::<UniformGradient, NeoHookean<f64>>($($argument),*),
-            (_, Law::MooneyRivlin { .. }) => $function::<UniformGradient, MooneyRivlin<f64>>($($argument),*),
-            (_, Law::MooneyRivlinEq4 { .. }) => $function::<UniformGradient, MooneyRivlinEq4<f64>>($($argument),*),
-        }
-    };
+impl Compose for ForceAt<'_> {
+    type Output = Force<f64>;
+    fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, viscosity: V) -> Force<f64> {
+        F::force(&law, &viscosity, self.class, self.x, self.v)
+    }
 }
 
 fn force(
     element: Element,
     law: &Law,
-    c: &Class<f64>,
+    class: &Class<f64>,
     x: &Corners<f64>,
     v: Option<&Corners<f64>>,
 ) -> Force<f64> {
-    composed!(element, law, force_of(law, c, x, v))
+    let composition = Composition { element, law: *law, viscosity: v.map(|_| ETA) };
+    composition.visit(ForceAt { class, x, v: v.unwrap_or(&[[0.0; 3]; 8]) })
 }
 
-fn energy_of<F: Formulation, L: Material<f64>>(law: &Law, c: &Class<f64>, x: &Corners<f64>) -> Energy<f64> {
-    F::energy(&L::new(law), c, x)
+struct EnergyAt<'a> {
+    class: &'a Class<f64>,
+    x: &'a Corners<f64>,
 }
 
-fn energy(element: Element, law: &Law, c: &Class<f64>, x: &Corners<f64>) -> Energy<f64> {
-    composed!(element, law, energy_of(law, c, x))
+impl Compose for EnergyAt<'_> {
+    type Output = Energy<f64>;
+    fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, _viscosity: V) -> Energy<f64> {
+        F::energy(&law, self.class, self.x)
+    }
+}
+
+fn energy(element: Element, law: &Law, class: &Class<f64>, x: &Corners<f64>) -> Energy<f64> {
+    Composition { element, law: *law, viscosity: None }.visit(EnergyAt { class, x })
 }
 
 /// A cube of `EDGE` with every corner moved by up to 15 % of it.
@@ -101,7 +89,7 @@ fn rotation(axis: Vec3<f64>, angle: f64) -> Mat3<f64> {
 
 /// Every formulation with every law.
 fn combinations() -> impl Iterator<Item = (Element, Law)> {
-    ELEMENTS.into_iter().flat_map(|e| LAWS.into_iter().map(move |l| (e, l)))
+    ELEMENTS.into_iter().flat_map(|e| laws().map(move |l| (e, l)))
 }
 
 /// Corner forces are the gradient of the stored energy, hourglass energy included.
@@ -313,7 +301,7 @@ fn extruded_elements_take_the_shorter_way_to_the_same_force() {
     let mut random = Random::new(12);
     let mut scenes = [wheel([12, 2, 3], 0.0), block([0.02, 0.015, 0.01], [2, 3, 2])];
     for scene in &mut scenes {
-        for law in LAWS {
+        for law in laws() {
             scene.body.law = law;
             let model = Model::new(scene).unwrap();
             assert!(model.is_extruded());
@@ -323,17 +311,8 @@ fn extruded_elements_take_the_shorter_way_to_the_same_force() {
                 let v: Corners<f64> = std::array::from_fn(|_| random.vector());
                 let c = &model.classes[class as usize];
                 let general = force(Element::Q1p0, &law, c, &x, Some(&v));
-                let shorter = match law {
-                    Law::NeoHookean { .. } => {
-                        force_of::<ExtrudedQ1p0, NeoHookean<f64>>(&law, c, &x, Some(&v))
-                    }
-                    Law::MooneyRivlin { .. } => {
-                        force_of::<ExtrudedQ1p0, MooneyRivlin<f64>>(&law, c, &x, Some(&v))
-                    }
-                    Law::MooneyRivlinEq4 { .. } => {
-                        force_of::<ExtrudedQ1p0, MooneyRivlinEq4<f64>>(&law, c, &x, Some(&v))
-                    }
-                };
+                let composition = Composition { element: Element::Q1p0, law, viscosity: Some(ETA) };
+                let shorter = composition.visit_fastest(true, ForceAt { class: c, x: &x, v: &v });
                 let scale = largest(&general.f);
                 for (a, b) in general.f.iter().flatten().zip(shorter.f.iter().flatten()) {
                     // The same sums without terms that are zero up to round-off.

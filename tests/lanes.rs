@@ -10,12 +10,21 @@ use common::block;
 use hexroll::cpu::{Precision, engine_at};
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
-use hexroll::physics::lanes::{Array, Lanes, Level, Portable32, Portable64};
+use hexroll::physics::lanes::{Array, InLanes, Instructions, Lanes, Level};
+use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
 use hexroll::physics::scalar::{Real, Scalar};
 use hexroll::scene::Scene;
 
-fn levels() -> Vec<Level> {
-    [Level::Portable, Level::Avx2, Level::Avx512].into_iter().filter(|l| *l <= Level::detect()).collect()
+/// Runs a check on the lanes of every level in both precisions, and on arrays.
+macro_rules! on_all_lanes {
+    ($check:ident) => {
+        for level in Level::available() {
+            level.call::<f64, _>($check);
+            level.call::<f32, _>($check);
+        }
+        InLanes::<f64>::run::<Array<f64, 2>>($check);
+        InLanes::<f32>::run::<Array<f32, 4>>($check);
+    };
 }
 
 /// Positions stretched and sheared smoothly by about a tenth, velocities alike.
@@ -38,9 +47,9 @@ fn cases() -> Vec<Scene> {
     let mut cases = Vec::new();
     for element in [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }] {
         for law in [
-            Law::NeoHookean { g0: 65.1e6, g1: 2.64e6 },
-            Law::MooneyRivlin { g0: 65.1e6, g1: 2.0e6, g2: 0.64e6 },
-            Law::MooneyRivlinEq4 { g0: 63.0e6, g1: 2.0e6, g2: 0.64e6 },
+            Law::NeoHookean(NeoHookean { g0: 65.1e6, g1: 2.64e6 }),
+            Law::MooneyRivlin(MooneyRivlin { g0: 65.1e6, g1: 2.0e6, g2: 0.64e6 }),
+            Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0: 63.0e6, g1: 2.0e6, g2: 0.64e6 }),
         ] {
             for viscosity in [None, Some(20.0)] {
                 // 7 elements a row: no lane count divides it, so full, crossing and partial batches all occur.
@@ -61,8 +70,8 @@ fn every_level_computes_the_portable_forces() {
         for (precision, tolerance) in [(Precision::F64, 1e-13), (Precision::F32, 3e-5)] {
             // Rounding of the stress relative to its deviator: 1e-16 (6e-8) times kappa/G and a few digits of sums.
             let of = |level| engine_at(&model, &case, precision, 1, level).force(&x, &v).unwrap();
-            let portable = of(Level::Portable);
-            for level in levels() {
+            let portable = of(Level::PORTABLE);
+            for level in Level::available() {
                 let error = relative(&portable, &of(level));
                 assert!(error < tolerance, "{level:?} {precision:?} {:?}: {error:e}", case.body.element);
             }
@@ -93,7 +102,7 @@ fn the_order_of_elements_and_nodes_does_not_matter() {
     for (n, &to) in number.iter().enumerate() {
         (mixed.0[to], mixed.1[to]) = (x[n], v[n]);
     }
-    for level in levels() {
+    for level in Level::available() {
         let straight = engine_at(&model, &case, Precision::F64, 1, level).force(&x, &v).unwrap();
         let shuffled =
             engine_at(&shuffled, &case, Precision::F64, 1, level).force(&mixed.0, &mixed.1).unwrap();
@@ -105,25 +114,40 @@ fn the_order_of_elements_and_nodes_does_not_matter() {
 
 #[test]
 fn the_reciprocal_cube_root_is_exact_to_the_last_digits() {
-    fn check<N: Lanes>(digits: f64) {
+    // Two steps from 4 %: below the rounding of the last one, about two units in the last place.
+    on_all_lanes!(RecipCbrt);
+}
+
+#[derive(Clone, Copy)]
+struct RecipCbrt;
+
+impl<T: Real> InLanes<T> for RecipCbrt {
+    type Output = ();
+    #[inline(always)]
+    fn run<N: Lanes<Real = T>>(self) {
+        let digits = if T::SINGLE { 5e-7 } else { 8e-16 };
         for i in 0..4000 {
             let x = 10.0f64.powf(-3.0 + 6.0 * f64::from(i) / 4000.0);
-            let x = <N::Real as Scalar>::from_f64(x).to_f64();
-            let root = N::splat(<N::Real as Scalar>::from_f64(x)).recip_cbrt().lane(N::WIDTH - 1).to_f64();
+            let x = T::from_f64(x).to_f64();
+            let root = N::splat(T::from_f64(x)).recip_cbrt().lane(N::WIDTH - 1).to_f64();
             assert!((root * x.cbrt() - 1.0).abs() < digits, "{x}: {root}");
         }
     }
-    // Four (three) Newton steps from 4 %: below the rounding of the last one, about two units in the last place.
-    check::<Array<f64, 2>>(8e-16);
-    check::<Array<f32, 4>>(5e-7);
-    check::<Portable64>(8e-16);
-    check::<Portable32>(5e-7);
 }
 
 /// Everything that moves or compares lanes, against what it says of each lane.
 #[test]
 fn lanes_move_and_compare_as_they_say() {
-    fn check<N: Lanes>() {
+    on_all_lanes!(MoveAndCompare);
+}
+
+#[derive(Clone, Copy)]
+struct MoveAndCompare;
+
+impl<T: Real> InLanes<T> for MoveAndCompare {
+    type Output = ();
+    #[inline(always)]
+    fn run<N: Lanes<Real = T>>(self) {
         let real = |v: f64| <N::Real as Scalar>::from_f64(v);
         let all = |f: &dyn Fn(usize) -> f64| (0..N::WIDTH).map(|i| real(f(i))).collect::<Vec<N::Real>>();
         let of = |v: &[N::Real]| unsafe { N::load(v.as_ptr(), 0) };
@@ -165,8 +189,4 @@ fn lanes_move_and_compare_as_they_say() {
         assert_eq!(list(-x), list(x).iter().map(|v| -v).collect::<Vec<f64>>());
         assert_eq!(list((x - y) / x * x + y), list(x));
     }
-    check::<Array<f64, 2>>();
-    check::<Array<f32, 4>>();
-    check::<Portable64>();
-    check::<Portable32>();
 }

@@ -127,9 +127,7 @@ fn forces_are_plain(element: Element) {
             .collect();
         let v: Vec<[f64; 3]> = x.iter().map(|x| [0, 1, 2].map(|d| (5.0 * x[d] / size).cos())).collect();
         let expected = plain(&model, &x, &v);
-        for level in
-            [Level::Portable, Level::Avx2, Level::Avx512].into_iter().filter(|l| *l <= Level::detect())
-        {
+        for level in Level::available() {
             for (precision, threads, tolerance) in [
                 // Rounding of stresses that nearly cancel: 1e-16 (6e-8) times kappa/G and the digits lost in sums.
                 (Precision::F64, 1, 1e-12),
@@ -181,7 +179,7 @@ fn lanes_without_a_node_do_no_work() {
     let v: Vec<[f64; 3]> = (0..model.node_count()).map(|_| random.vector()).collect();
     let square = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>();
     let given: f64 = v.iter().zip(&model.mass).map(|(v, m)| 0.5 * m * square(v)).sum();
-    for level in [Level::Portable, Level::Avx2, Level::Avx512].into_iter().filter(|l| *l <= Level::detect()) {
+    for level in Level::available() {
         for threads in [1, 2] {
             let mut driver = Driver::new(&model, &scene);
             driver.engine = engine_at(&model, &scene, Precision::F64, threads, level);

@@ -14,7 +14,7 @@ fn mean_stress(f: mat3x3r) -> MeanStress {
     let cof = cofactor(f);
     let j = dot(f[0], cof[0]);
     let k = invariants(identity(), gram(f));
-    let d = first_piola(k.i1, k.i2, j);
+    let d = derivatives(k.i1, k.i2, j);
     return MeanStress(times(f, second_piola(k, d, identity(), 1.0)) + cof * (d.z + dU(j)), cof, j);
 }
 

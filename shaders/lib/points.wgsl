@@ -10,7 +10,7 @@ fn point(a: mat3x3r, squares: vec3r, shape: u32, q: u32, mean: real, rate: mat3x
     let det_a = dot(a[0], cof[0]);
     let j = det_a * geometry.inverse_det_j0;
     let k = invariants(m, Sym(squares, vec3r(dot(a[0], a[1]), dot(a[0], a[2]), dot(a[1], a[2]))));
-    let d = first_piola(k.i1, k.i2, j);
+    let d = derivatives(k.i1, k.i2, j);
     let p = pressed((d.z + point_pressure(mean, j)) * WEIGHT, cof, det_a, rate);
     return Point(a, cof, p, second_piola(k, d, m, geometry.volume), j);
 }

@@ -10,7 +10,7 @@ fn psi(i1: real, i2: real, j: real) -> real {
 }
 
 // (dW/dI1, dW/dI2, dW/dJ)
-fn first_piola(i1: real, i2: real, j: real) -> vec3r {
+fn derivatives(i1: real, i2: real, j: real) -> vec3r {
     let r = 1.0 / j;
     let w2 = 0.5 * g2 * r * r;
     return vec3r(0.5 * g1, w2, r * (g2 - g1 - 2.0 * w2 * i2));

@@ -9,7 +9,7 @@ fn psi(i1: real, i2: real, j: real) -> real {
 }
 
 // (dW/dI1, dW/dI2, dW/dJ)
-fn first_piola(i1: real, i2: real, j: real) -> vec3r {
+fn derivatives(i1: real, i2: real, j: real) -> vec3r {
     let r = recip_cbrt(j);
     let r2 = r * r;
     let w1 = 0.5 * g1 * r2;

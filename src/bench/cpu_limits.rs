@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use super::floor::Limits;
 use crate::cpu::Precision;
-use crate::physics::lanes::{Lanes, Level, Portable32, Portable64};
+use crate::physics::lanes::{InLanes, Instructions, Lanes, Level};
+use crate::physics::scalar::Real;
 
 /// Copy bandwidth over arrays of one size.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -47,7 +48,7 @@ impl CpuLimits {
         ];
         CpuLimits {
             precision: if precision == Precision::F64 { "f64" } else { "f32" }.into(),
-            lanes: lanes_name(level).into(),
+            lanes: level.name().into(),
             threads,
             copy: sizes
                 .map(|(bytes, holds_to)| {
@@ -65,15 +66,6 @@ impl CpuLimits {
         let fits = self.copy.iter().find(|c| c.holds_to.is_none_or(|most| most as f64 >= bytes));
         let bandwidth = fits.or(self.copy.last()).map_or(f64::INFINITY, |c| c.bytes_per_s);
         Limits { bandwidth, flops: self.flops_per_s, latency: self.barrier_s }
-    }
-}
-
-/// As in arguments and reports.
-pub fn lanes_name(level: Level) -> &'static str {
-    match level {
-        Level::Portable => "portable",
-        Level::Avx2 => "avx2",
-        Level::Avx512 => "avx512",
     }
 }
 
@@ -145,47 +137,29 @@ const ROUNDS: usize = 20_000;
 /// Independent sums: enough to cover the latency of two pipelines, few enough for 16 registers.
 const CHAINS: usize = 12;
 
-#[inline(always)]
-fn multiply_adds<N: Lanes>() -> f64 {
-    let (a, b) = (black_box(N::from_f64(0.999)), black_box(N::from_f64(1e-3)));
-    let mut sums = [b; CHAINS];
-    for _ in 0..ROUNDS {
-        for sum in &mut sums {
-            *sum = sum.mul_add(a, b);
+struct MultiplyAdds;
+
+impl<T: Real> InLanes<T> for MultiplyAdds {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<N: Lanes<Real = T>>(self) -> f64 {
+        let (a, b) = (black_box(N::from_f64(0.999)), black_box(N::from_f64(1e-3)));
+        let mut sums = [b; CHAINS];
+        for _ in 0..ROUNDS {
+            for sum in &mut sums {
+                *sum = sum.mul_add(a, b);
+            }
         }
-    }
-    black_box(&sums);
-    (2 * ROUNDS * CHAINS * N::WIDTH) as f64
-}
-
-#[cfg(target_arch = "x86_64")]
-mod x86 {
-    use super::multiply_adds;
-    use crate::physics::lanes::{F32x8, F32x16, F64x4, F64x8};
-
-    #[target_feature(enable = "avx2,fma")]
-    pub fn avx2(double: bool) -> f64 {
-        if double { multiply_adds::<F64x4>() } else { multiply_adds::<F32x8>() }
-    }
-
-    #[target_feature(enable = "avx512f,fma")]
-    pub fn avx512(double: bool) -> f64 {
-        if double { multiply_adds::<F64x8>() } else { multiply_adds::<F32x16>() }
+        black_box(&sums);
+        (2 * ROUNDS * CHAINS * N::WIDTH) as f64
     }
 }
 
 fn multiply_add_rate(precision: Precision, level: Level, threads: usize) -> f64 {
-    assert!(level <= Level::detect(), "this machine has no {level:?}");
-    let double = precision == Precision::F64;
-    most(threads, || {
-        #[cfg(target_arch = "x86_64")]
-        match level {
-            // SAFETY: the machine has the instructions of every level up to the detected one.
-            Level::Avx512 => return unsafe { x86::avx512(double) },
-            Level::Avx2 => return unsafe { x86::avx2(double) },
-            Level::Portable => {}
-        }
-        if double { multiply_adds::<Portable64>() } else { multiply_adds::<Portable32>() }
+    most(threads, || match precision {
+        Precision::F64 => level.call::<f64, _>(MultiplyAdds),
+        Precision::F32 => level.call::<f32, _>(MultiplyAdds),
     })
 }
 

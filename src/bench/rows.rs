@@ -1,7 +1,7 @@
 //! The rows: every engine asked for on every wheel asked for, timed, and then compared with the reference engine.
 
 use super::clock::{Clock, together};
-use super::cpu_limits::{CpuLimits, lanes_name};
+use super::cpu_limits::CpuLimits;
 use super::fleet::Fleet;
 use super::floor::{self, Bound, Limits};
 use super::gpu_limits::GpuLimits;
@@ -260,7 +260,7 @@ impl Bench<'_> {
         let (error, deformation) = roll.error(model, timed.steps, &timed.state, reference);
         Row {
             engine: kind.name().into(),
-            lanes: if kind.on_gpu() { String::new() } else { lanes_name(level).into() },
+            lanes: if kind.on_gpu() { String::new() } else { level.name().into() },
             threads,
             copies,
             element: self.wheel.element.into(),
@@ -299,7 +299,7 @@ impl Bench<'_> {
         let name = if kind.is_double() { "f64" } else { "f32" };
         let known = &mut self.report.limits.cpu;
         let same = |l: &CpuLimits| {
-            (l.precision.as_str(), l.lanes.as_str(), l.threads) == (name, lanes_name(level), threads)
+            (l.precision.as_str(), l.lanes.as_str(), l.threads) == (name, level.name(), threads)
         };
         let at = known.iter().position(same).unwrap_or_else(|| {
             known.push(CpuLimits::measure(precision, level, threads));

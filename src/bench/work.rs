@@ -5,17 +5,12 @@ use serde::{Deserialize, Serialize};
 
 use super::counting::{Counted, Operations, count};
 use crate::model::Model;
-use crate::physics::element::{
-    Class, Corners, ExtrudedFull, ExtrudedQ1p0, ExtrudedUniformGradient, Formulation, Full, Q1p0,
-    UniformGradient,
-};
-use crate::physics::material::{
-    Inviscid, KelvinVoigt, Law, MooneyRivlin, MooneyRivlinEq4, NeoHookean, Viscosity,
-};
+use crate::physics::element::{Class, Compose, Corners, Formulation};
+use crate::physics::material::{Hyperelastic, Viscosity};
 use crate::physics::node::{Loads, Prediction, StepSize};
 use crate::physics::scalar::{Real, Scalar};
 use crate::physics::tensor::{add, axpy};
-use crate::scene;
+use std::marker::PhantomData;
 
 /// A pass over the mesh: what it must read, write and compute in one step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,40 +23,23 @@ pub struct Pass {
 
 /// Operations of the force routine of one element of the model's own formulation, law and viscosity, in precision `T`.
 pub fn element_operations<T: Real>(model: &Model) -> Operations {
-    fn of<T: Real, F: Formulation, L: Law<Counted<T>>>(model: &Model) -> Operations {
-        let class: Class<Counted<T>> = model.classes[0].cast();
-        let x = corners::<T>(&model.mesh.nodes, &model.mesh.hexes[0]);
-        let law = L::new(&model.law);
-        fn force<T: Real, F: Formulation, L: Law<Counted<T>>, V: Viscosity<Counted<T>>>(
-            law: &L,
-            eta: f64,
-            class: &Class<Counted<T>>,
-            x: &Corners<Counted<T>>,
-        ) -> Operations {
-            let viscosity = V::new(eta);
-            count(|| F::force(law, &viscosity, class, x, x)).1
-        }
-        match model.viscosity {
-            None => force::<T, F, L, Inviscid>(&law, 0.0, &class, &x),
-            Some(eta) => force::<T, F, L, KelvinVoigt<Counted<T>>>(&law, eta, &class, &x),
-        }
-    }
-    fn with_law<T: Real, F: Formulation>(model: &Model) -> Operations {
-        match model.law {
-            scene::Law::NeoHookean { .. } => of::<T, F, NeoHookean<Counted<T>>>(model),
-            scene::Law::MooneyRivlin { .. } => of::<T, F, MooneyRivlin<Counted<T>>>(model),
-            scene::Law::MooneyRivlinEq4 { .. } => of::<T, F, MooneyRivlinEq4<Counted<T>>>(model),
-        }
-    }
-    match model.element {
-        scene::Element::Q1p0 if model.is_extruded() => with_law::<T, ExtrudedQ1p0>(model),
-        scene::Element::Q1p0 => with_law::<T, Q1p0>(model),
-        scene::Element::Full if model.is_extruded() => with_law::<T, ExtrudedFull>(model),
-        scene::Element::Full => with_law::<T, Full>(model),
-        scene::Element::UniformGradient { .. } if model.is_extruded() => {
-            with_law::<T, ExtrudedUniformGradient>(model)
-        }
-        scene::Element::UniformGradient { .. } => with_law::<T, UniformGradient>(model),
+    let class: Class<Counted<T>> = model.classes[0].cast();
+    let x = corners::<T>(&model.mesh.nodes, &model.mesh.hexes[0]);
+    let count = Count { class, x, kind: PhantomData::<T> };
+    model.composition().visit_fastest(model.is_extruded(), count)
+}
+
+struct Count<T: Real> {
+    class: Class<Counted<T>>,
+    x: Corners<Counted<T>>,
+    kind: PhantomData<T>,
+}
+
+impl<T: Real> Compose for Count<T> {
+    type Output = Operations;
+
+    fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, viscosity: V) -> Operations {
+        count(|| F::force(&law, &viscosity, &self.class, &self.x, &self.x)).1
     }
 }
 

@@ -128,17 +128,13 @@ fn viscosity(text: &str) -> std::result::Result<Viscosities, String> {
 }
 
 fn lanes(text: &str) -> std::result::Result<Level, String> {
-    let level = match text {
-        "portable" => Level::Portable,
-        "avx2" => Level::Avx2,
-        "avx512" => Level::Avx512,
-        "best" => Level::detect(),
-        _ => return Err("portable, avx2, avx512 or best is needed".into()),
-    };
-    if level > Level::detect() {
-        return Err("this machine does not have these instructions".into());
+    match text {
+        "best" => Ok(Level::detect()),
+        "portable" | "avx2" | "avx512" => {
+            Level::named(text).ok_or("this machine does not have these instructions".into())
+        }
+        _ => Err("portable, avx2, avx512 or best is needed".into()),
     }
-    Ok(level)
 }
 
 fn seconds(text: &str) -> std::result::Result<f64, String> {

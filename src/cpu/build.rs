@@ -2,7 +2,7 @@
 
 use super::energies::Stored;
 use super::layout::Layout;
-use super::nodes::{NO_SURFACE, NodePass, Nodes};
+use super::nodes::{NO_SURFACE, Nodes};
 use super::rim::RimState;
 use super::state::{Aligned, Field};
 use crate::model::mesh::Mesh;
@@ -13,7 +13,7 @@ use crate::scene::Road;
 use std::ops::Range;
 
 /// Data of the node pass for lanes of `width`.
-pub fn nodes<T: NodePass>(
+pub fn nodes<T: Real>(
     model: &Model,
     layout: &Layout,
     surface: &[u32],
@@ -53,8 +53,7 @@ pub fn nodes<T: NodePass>(
 
 pub fn stored(model: &Model, layout: &Layout, level: Level, width: usize) -> Stored {
     Stored {
-        element: model.element,
-        law: model.law,
+        composition: model.composition(),
         level,
         classes: model.classes.clone(),
         shapes: layout.shapes.clone(),

@@ -1,20 +1,15 @@
 //! The element pass, several elements at a time: forces onto the node lines.
 
-use super::family::{LawFamily, ViscosityFamily};
 use super::layout::{Item, Loose};
 use super::rows::{Batch, Row, Rows};
 use super::state::{Aligned, View};
 use crate::model::Model;
 use crate::model::chains::{BACK, FRONT};
-use crate::physics::element::{
-    Class, Corners, ExtrudedFull, ExtrudedQ1p0, ExtrudedUniformGradient, Formulation, Full, LaneShapes, Q1p0,
-    UniformGradient,
-};
-use crate::physics::lanes::{Lanes, Level, Portable32, Portable64, WIDEST, first};
-use crate::physics::material::{Law, Viscosity};
+use crate::physics::element::{Compose, Corners, Formulation, LaneShapes};
+use crate::physics::lanes::{InLanes, Instructions, Lanes, WIDEST, first};
+use crate::physics::material::{Hyperelastic, Viscosity};
 use crate::physics::scalar::{Real, Scalar};
 use crate::physics::tensor::Vec3;
-use crate::scene;
 use std::cell::Cell;
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -49,12 +44,79 @@ pub trait Kernel<T>: Send + Sync {
     fn numbers(&self) -> Range<usize>;
 }
 
-struct Composed<F, L, V> {
-    law: scene::Law,
-    eta: f64,
-    #[cfg_attr(test, expect(dead_code))] // see `Level::detect`
-    level: Level,
-    kind: PhantomData<(F, L, V)>,
+/// Composes the kernel that a model needs, for these instructions.
+pub fn compose<T: Real>(model: &Model, instructions: impl Instructions) -> Box<dyn Kernel<T>> {
+    let build = Build { instructions, kind: PhantomData };
+    model.composition().visit_fastest(model.is_extruded(), build)
+}
+
+struct Build<T, I> {
+    instructions: I,
+    kind: PhantomData<T>,
+}
+
+impl<T: Real, I: Instructions> Compose for Build<T, I> {
+    type Output = Box<dyn Kernel<T>>;
+
+    fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, viscosity: V) -> Self::Output {
+        Box::new(Composed::<F, L, V, I> {
+            law,
+            viscosity,
+            instructions: self.instructions,
+            kind: PhantomData,
+        })
+    }
+}
+
+struct Composed<F, L, V, I> {
+    law: L,
+    viscosity: V,
+    instructions: I,
+    kind: PhantomData<F>,
+}
+
+impl<T: Real, F: Formulation, L: Hyperelastic, V: Viscosity, I: Instructions> Kernel<T>
+    for Composed<F, L, V, I>
+{
+    fn numbers(&self) -> Range<usize> {
+        F::NUMBERS
+    }
+
+    unsafe fn forces(&self, elements: &Elements<T>, item: usize, view: &View<T>, power: Power) -> Failed {
+        let Composed { law, viscosity, .. } = *self;
+        let kind = PhantomData::<F>;
+        self.instructions.call(Pass { law, viscosity, elements, item, view, power, kind })
+    }
+}
+
+/// The pass over an item; made by [`Kernel::forces`] alone, whose safety contract it is under.
+struct Pass<'a, T, F, L, V> {
+    law: L,
+    viscosity: V,
+    elements: &'a Elements<T>,
+    item: usize,
+    view: &'a View<T>,
+    power: Power,
+    kind: PhantomData<F>,
+}
+
+impl<T: Real, F: Formulation, L: Hyperelastic, V: Viscosity> InLanes<T> for Pass<'_, T, F, L, V> {
+    type Output = Failed;
+
+    #[inline(always)]
+    fn run<N: Lanes<Real = T>>(self) -> Failed {
+        // SAFETY: the contract of `Kernel::forces`.
+        unsafe {
+            forces_in::<N, F, L, V>(
+                &self.law,
+                &self.viscosity,
+                self.elements,
+                self.item,
+                self.view,
+                self.power,
+            )
+        }
+    }
 }
 
 /// Corners of a batch copied together, with nothing in common: vector c of a component holds corner c of every lane.
@@ -208,16 +270,15 @@ fn shape_at<N: Lanes, F: Formulation>(elements: &Elements<N::Real>, entry: u32) 
 /// What the elements of a row's batch give their front corners is carried into the next batch, so that a node gets the
 /// force of both its neighbours in the row at once.
 #[inline(always)]
-unsafe fn forces_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
-    composed: &Composed<F, L, V>,
+unsafe fn forces_in<N: Lanes, F: Formulation, L: Hyperelastic, V: Viscosity>(
+    law: &L,
+    viscosity: &V,
     elements: &Elements<N::Real>,
     item: usize,
     view: &View<N::Real>,
     power: Power,
 ) -> Failed {
-    let law = <L::Law<N> as Law<N>>::new(&composed.law);
-    let viscosity = <V::Viscosity<N> as Viscosity<N>>::new(composed.eta);
-    let viscous = <V::Viscosity<N> as Viscosity<N>>::ON;
+    let viscous = V::ON;
     let item = &elements.items[item];
     let mut held = COPY.take().unwrap_or_default();
     let copy: &mut Copied<N::Real> = in_precision(&mut held);
@@ -255,7 +316,7 @@ unsafe fn forces_in<N: Lanes, F: Formulation, L: LawFamily, V: ViscosityFamily>(
                 Item::Loose(_) => (Places::copied(N::WIDTH), copies(&copy.x), copies(&copy.v)),
             };
             let v = if viscous { places.load::<N>(&v) } else { [[N::zero(); 3]; 8] };
-            let force = F::force(&law, &viscosity, &shape, &places.load::<N>(&x), &v);
+            let force = F::force(law, viscosity, &shape, &places.load::<N>(&x), &v);
             match item {
                 Item::Rows(rows) => {
                     add_to_rows(rows, rows.batches.get_unchecked(b), view, &force.f, &mut carry);
@@ -401,189 +462,22 @@ fn first_failed<N: Lanes>(min_j: N, elements: &[u32]) -> Option<usize> {
     (0..elements.len()).filter(bad).map(|lane| elements[lane] as usize).min()
 }
 
-/// One implementation a precision: which lane type each level of instructions uses.
-macro_rules! dispatched {
-    ($real:ty, $portable:ty, $avx2:ident, $avx512:ident) => {
-        impl<F: Formulation, L: LawFamily, V: ViscosityFamily> Kernel<$real> for Composed<F, L, V> {
-            fn numbers(&self) -> Range<usize> {
-                F::NUMBERS
-            }
-
-            unsafe fn forces(
-                &self,
-                elements: &Elements<$real>,
-                item: usize,
-                view: &View<$real>,
-                power: Power,
-            ) -> Failed {
-                // See `Level::detect`.
-                #[cfg(all(target_arch = "x86_64", not(test)))]
-                {
-                    #[target_feature(enable = "avx2,fma")]
-                    unsafe fn avx2<F: Formulation, L: LawFamily, V: ViscosityFamily>(
-                        this: &Composed<F, L, V>,
-                        elements: &Elements<$real>,
-                        item: usize,
-                        view: &View<$real>,
-                        power: Power,
-                    ) -> Failed {
-                        use crate::physics::lanes::$avx2;
-                        unsafe { forces_in::<$avx2, F, L, V>(this, elements, item, view, power) }
-                    }
-                    #[target_feature(enable = "avx512f,fma")]
-                    unsafe fn avx512<F: Formulation, L: LawFamily, V: ViscosityFamily>(
-                        this: &Composed<F, L, V>,
-                        elements: &Elements<$real>,
-                        item: usize,
-                        view: &View<$real>,
-                        power: Power,
-                    ) -> Failed {
-                        use crate::physics::lanes::$avx512;
-                        unsafe { forces_in::<$avx512, F, L, V>(this, elements, item, view, power) }
-                    }
-                    match self.level {
-                        Level::Avx512 => return unsafe { avx512(self, elements, item, view, power) },
-                        Level::Avx2 => return unsafe { avx2(self, elements, item, view, power) },
-                        Level::Portable => {}
-                    }
-                }
-                unsafe { forces_in::<$portable, F, L, V>(self, elements, item, view, power) }
-            }
-        }
-    };
-}
-dispatched!(f64, Portable64, F64x4, F64x8);
-dispatched!(f32, Portable32, F32x8, F32x16);
-
-/// Lanes of a level, for elements and nodes alike.
-pub fn width(level: Level, single: bool) -> usize {
-    let doubles = match level {
-        Level::Avx512 => 8,
-        Level::Avx2 => 4,
-        Level::Portable => 2,
-    };
-    if single { 2 * doubles } else { doubles }
-}
-
-/// Composes the kernel a model needs.
-pub fn compose<T>(model: &Model, level: Level) -> Box<dyn Kernel<T>>
-where
-    T: 'static,
-    Composable: Build<T>,
-{
-    Composable::build(model, level)
-}
-
-/// Builds kernels of a precision.
-pub trait Build<T> {
-    fn build(model: &Model, level: Level) -> Box<dyn Kernel<T>>;
-}
-
-/// Carrier of [`Build`].
-pub struct Composable;
-
-macro_rules! build {
-    ($real:ty) => {
-        impl Build<$real> for Composable {
-            fn build(model: &Model, level: Level) -> Box<dyn Kernel<$real>> {
-                use super::family::*;
-                let (law, viscosity) = (model.law, model.viscosity);
-                fn boxed<F: Formulation, L: LawFamily, V: ViscosityFamily>(
-                    law: scene::Law,
-                    eta: f64,
-                    level: Level,
-                ) -> Box<dyn Kernel<$real>> {
-                    Box::new(Composed::<F, L, V> { law, eta, level, kind: PhantomData })
-                }
-                fn with_law<F: Formulation, L: LawFamily>(
-                    law: scene::Law,
-                    viscosity: Option<f64>,
-                    level: Level,
-                ) -> Box<dyn Kernel<$real>> {
-                    match viscosity {
-                        None => boxed::<F, L, NoViscosity>(law, 0.0, level),
-                        Some(eta) => boxed::<F, L, ShearViscosity>(law, eta, level),
-                    }
-                }
-                fn with_formulation<F: Formulation>(
-                    law: scene::Law,
-                    viscosity: Option<f64>,
-                    level: Level,
-                ) -> Box<dyn Kernel<$real>> {
-                    match law {
-                        scene::Law::NeoHookean { .. } => with_law::<F, NeoHookeanLaw>(law, viscosity, level),
-                        scene::Law::MooneyRivlin { .. } => {
-                            with_law::<F, MooneyRivlinLaw>(law, viscosity, level)
-                        }
-                        scene::Law::MooneyRivlinEq4 { .. } => {
-                            with_law::<F, MooneyRivlinEq4Law>(law, viscosity, level)
-                        }
-                    }
-                }
-                match model.element {
-                    scene::Element::Q1p0 if model.is_extruded() => {
-                        with_formulation::<ExtrudedQ1p0>(law, viscosity, level)
-                    }
-                    scene::Element::Q1p0 => with_formulation::<Q1p0>(law, viscosity, level),
-                    scene::Element::Full if model.is_extruded() => {
-                        with_formulation::<ExtrudedFull>(law, viscosity, level)
-                    }
-                    scene::Element::Full => with_formulation::<Full>(law, viscosity, level),
-                    scene::Element::UniformGradient { .. } if model.is_extruded() => {
-                        with_formulation::<ExtrudedUniformGradient>(law, viscosity, level)
-                    }
-                    scene::Element::UniformGradient { .. } => {
-                        with_formulation::<UniformGradient>(law, viscosity, level)
-                    }
-                }
-            }
-        }
-    };
-}
-build!(f64);
-build!(f32);
-
 /// Internal force of one element of a shape class in f64, at any corner positions and velocities.
 pub fn element_forces(model: &Model, class: usize, x: &Corners<f64>, v: &Corners<f64>) -> Corners<f64> {
-    single(model, &model.classes[class], x, v)
+    model.composition().visit(Single { model, class, x, v })
 }
 
-/// The same with plain numbers of any kind: the one place where a model's choices meet a scalar type.
-fn single<S: Scalar>(model: &Model, class: &Class<S>, x: &Corners<S>, v: &Corners<S>) -> Corners<S> {
-    use super::family::*;
-    fn with<S: Scalar, F: Formulation, L: LawFamily>(
-        model: &Model,
-        class: &Class<S>,
-        x: &Corners<S>,
-        v: &Corners<S>,
-    ) -> Corners<S> {
-        let law = <L::Law<S> as Law<S>>::new(&model.law);
-        match model.viscosity {
-            None => {
-                let none = <<NoViscosity as ViscosityFamily>::Viscosity<S> as Viscosity<S>>::new(0.0);
-                F::force(&law, &none, class, x, v).f
-            }
-            Some(eta) => {
-                let shear = <<ShearViscosity as ViscosityFamily>::Viscosity<S> as Viscosity<S>>::new(eta);
-                F::force(&law, &shear, class, x, v).f
-            }
-        }
-    }
-    fn with_formulation<S: Scalar, F: Formulation>(
-        model: &Model,
-        class: &Class<S>,
-        x: &Corners<S>,
-        v: &Corners<S>,
-    ) -> Corners<S> {
-        match model.law {
-            scene::Law::NeoHookean { .. } => with::<S, F, NeoHookeanLaw>(model, class, x, v),
-            scene::Law::MooneyRivlin { .. } => with::<S, F, MooneyRivlinLaw>(model, class, x, v),
-            scene::Law::MooneyRivlinEq4 { .. } => with::<S, F, MooneyRivlinEq4Law>(model, class, x, v),
-        }
-    }
-    match model.element {
-        scene::Element::Q1p0 => with_formulation::<S, Q1p0>(model, class, x, v),
-        scene::Element::Full => with_formulation::<S, Full>(model, class, x, v),
-        scene::Element::UniformGradient { .. } => with_formulation::<S, UniformGradient>(model, class, x, v),
+struct Single<'a> {
+    model: &'a Model,
+    class: usize,
+    x: &'a Corners<f64>,
+    v: &'a Corners<f64>,
+}
+
+impl Compose for Single<'_> {
+    type Output = Corners<f64>;
+
+    fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, viscosity: V) -> Corners<f64> {
+        F::force(&law, &viscosity, &self.model.classes[self.class], self.x, self.v).f
     }
 }

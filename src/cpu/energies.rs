@@ -1,22 +1,18 @@
 //! Stored energies, once a sample: in double precision whatever the engine's, four or eight elements at a time where
 //! the machine can.
 
-use super::family::{LawFamily, MooneyRivlinEq4Law, MooneyRivlinLaw, NeoHookeanLaw};
 use super::layout::Item;
 use crate::engine::EnergyTotals;
-use crate::physics::element::{Class, Corners, Energy, Formulation, Full, Q1p0, SameShape, UniformGradient};
-use crate::physics::lanes::{Array, Lanes, Level, WIDEST};
-#[cfg(target_arch = "x86_64")]
-use crate::physics::lanes::{F64x4, F64x8};
-use crate::physics::material::Law;
+use crate::physics::element::{Class, Compose, Composition, Corners, Energy, Formulation, SameShape};
+use crate::physics::lanes::{InLanes, Instructions, Lanes, Level, WIDEST};
+use crate::physics::material::{Hyperelastic, Viscosity};
 use crate::physics::scalar::Real;
-use crate::scene;
+use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// The elements, and their geometry by shape class.
 pub struct Stored {
-    pub element: scene::Element,
-    pub law: scene::Law,
+    pub composition: Composition,
     pub level: Level,
     pub classes: Arc<[Class<f64>]>,
     /// Classes by lane of the table of shapes, whose batches have so many lanes.
@@ -27,55 +23,48 @@ pub struct Stored {
 impl Stored {
     /// Energies of the elements of `items` at the positions `x`, by place, one component after the other.
     pub fn totals<T: Real>(&self, items: &[Item], x: [&[T]; 3]) -> EnergyTotals {
-        match self.element {
-            scene::Element::Q1p0 => self.with::<Q1p0, T>(items, x),
-            scene::Element::Full => self.with::<Full, T>(items, x),
-            scene::Element::UniformGradient { .. } => self.with::<UniformGradient, T>(items, x),
-        }
+        // Energies know nothing of viscosity.
+        Composition { viscosity: None, ..self.composition }.visit(Totals { stored: self, items, x })
     }
+}
 
-    fn with<F: Formulation, T: Real>(&self, items: &[Item], x: [&[T]; 3]) -> EnergyTotals {
-        match self.law {
-            scene::Law::NeoHookean { .. } => self.sum::<F, NeoHookeanLaw, T>(items, x),
-            scene::Law::MooneyRivlin { .. } => self.sum::<F, MooneyRivlinLaw, T>(items, x),
-            scene::Law::MooneyRivlinEq4 { .. } => self.sum::<F, MooneyRivlinEq4Law, T>(items, x),
-        }
+struct Totals<'a, T> {
+    stored: &'a Stored,
+    items: &'a [Item],
+    x: [&'a [T]; 3],
+}
+
+impl<T: Real> Compose for Totals<'_, T> {
+    type Output = EnergyTotals;
+
+    fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, _viscosity: V) -> EnergyTotals {
+        self.sum::<F, L>(law)
     }
+}
 
-    fn sum<F: Formulation, L: LawFamily, T: Real>(&self, items: &[Item], x: [&[T]; 3]) -> EnergyTotals {
-        #[cfg(target_arch = "x86_64")]
-        match self.level {
-            Level::Avx512 => return self.sum_by::<T, WIDE>(items, x, avx512::<F, L>),
-            Level::Avx2 => return self.sum_by::<T, WIDTH>(items, x, avx2::<F, L>),
-            Level::Portable => {}
-        }
-        self.sum_by::<T, WIDTH>(items, x, batch_in::<Array<f64, WIDTH>, F, L, WIDTH>)
-    }
-
-    fn sum_by<T: Real, const W: usize>(
-        &self,
-        items: &[Item],
-        x: [&[T]; 3],
-        batch: impl Fn(&scene::Law, &Class<f64>, &Gathered<W>) -> Batch<W>,
-    ) -> EnergyTotals {
+impl<T: Real> Totals<'_, T> {
+    fn sum<F: Formulation, L: Hyperelastic>(&self, law: L) -> EnergyTotals {
+        let Stored { classes, shapes, width, level, .. } = self.stored;
+        let lanes = level.width::<f64>();
         let mut totals = EnergyTotals::default();
-        let mut corners = [[[0.0; W]; 3]; 8];
-        for item in items {
+        let mut corners = Gathered([[[0.0; MOST]; 3]; 8]);
+        for item in self.items {
             let places = item.corners();
-            let class_of = |k: usize| self.shapes[item.shapes()[k / self.width] as usize][k % self.width];
+            let class_of = |k: usize| shapes[item.shapes()[k / width] as usize][k % width];
             let mut at = 0;
             while at < places.len() {
                 let class = class_of(at);
-                let count = (at..places.len()).take(W).take_while(|k| class_of(*k) == class).count();
-                for lane in 0..W {
+                let count = (at..places.len()).take(lanes).take_while(|k| class_of(*k) == class).count();
+                for lane in 0..lanes {
                     let hex = &places[at + lane.min(count - 1)];
-                    for (corner, &n) in corners.iter_mut().zip(hex) {
+                    for (corner, &n) in corners.0.iter_mut().zip(hex) {
                         for d in 0..3 {
-                            corner[d][lane] = x[d][n as usize].to_f64();
+                            corner[d][lane] = self.x[d][n as usize].to_f64();
                         }
                     }
                 }
-                let energy = batch(&self.law, &self.classes[class as usize], &corners);
+                let kind = PhantomData::<F>;
+                let energy = level.call(OfBatch { law, class: &classes[class as usize], x: &corners, kind });
                 for lane in 0..count {
                     totals.strain += energy.strain[lane];
                     totals.hourglass += energy.hourglass[lane];
@@ -88,75 +77,47 @@ impl Stored {
     }
 }
 
-/// Elements at a time.
-const WIDTH: usize = 4;
-#[cfg(target_arch = "x86_64")]
-const WIDE: usize = 8;
-type Gathered<const W: usize> = [[[f64; W]; 3]; 8];
+/// Most elements at a time.
+const MOST: usize = 8;
 
-struct Batch<const W: usize> {
-    strain: [f64; W],
-    hourglass: [f64; W],
-    min_j: [f64; W],
+/// Corners of a few elements of one class, lane by lane.
+struct Gathered([[[f64; MOST]; 3]; 8]);
+
+/// Their energies.
+struct Batch {
+    strain: [f64; MOST],
+    hourglass: [f64; MOST],
+    min_j: [f64; MOST],
 }
 
-#[cfg(target_arch = "x86_64")]
-fn avx2<F: Formulation, L: LawFamily>(
-    law: &scene::Law,
-    class: &Class<f64>,
-    x: &Gathered<WIDTH>,
-) -> Batch<WIDTH> {
-    #[target_feature(enable = "avx2,fma")]
-    fn inner<F: Formulation, L: LawFamily>(
-        law: &scene::Law,
-        class: &Class<f64>,
-        x: &Gathered<WIDTH>,
-    ) -> Batch<WIDTH> {
-        batch_in::<F64x4, F, L, WIDTH>(law, class, x)
-    }
-    // SAFETY: it is called at the level that says that the machine has the instructions.
-    unsafe { inner::<F, L>(law, class, x) }
+struct OfBatch<'a, F, L> {
+    law: L,
+    class: &'a Class<f64>,
+    x: &'a Gathered,
+    kind: PhantomData<F>,
 }
 
-#[cfg(target_arch = "x86_64")]
-fn avx512<F: Formulation, L: LawFamily>(
-    law: &scene::Law,
-    class: &Class<f64>,
-    x: &Gathered<WIDE>,
-) -> Batch<WIDE> {
-    #[target_feature(enable = "avx512f,fma")]
-    fn inner<F: Formulation, L: LawFamily>(
-        law: &scene::Law,
-        class: &Class<f64>,
-        x: &Gathered<WIDE>,
-    ) -> Batch<WIDE> {
-        batch_in::<F64x8, F, L, WIDE>(law, class, x)
-    }
-    // SAFETY: it is called at the level that says that the machine has the instructions.
-    unsafe { inner::<F, L>(law, class, x) }
-}
+impl<F: Formulation, L: Hyperelastic> InLanes<f64> for OfBatch<'_, F, L> {
+    type Output = Batch;
 
-#[inline(always)]
-fn batch_in<N: Lanes<Real = f64>, F: Formulation, L: LawFamily, const W: usize>(
-    law: &scene::Law,
-    class: &Class<f64>,
-    x: &Gathered<W>,
-) -> Batch<W> {
-    let law = <L::Law<N> as Law<N>>::new(law);
-    let mut corners: Corners<N> = [[N::zero(); 3]; 8];
-    for c in 0..8 {
-        for d in 0..3 {
-            // SAFETY: W is the width of the lanes.
-            corners[c][d] = unsafe { N::load(x[c][d].as_ptr(), 0) };
+    #[inline(always)]
+    fn run<N: Lanes<Real = f64>>(self) -> Batch {
+        const { assert!(N::WIDTH <= MOST) };
+        let mut corners: Corners<N> = [[N::zero(); 3]; 8];
+        for c in 0..8 {
+            for d in 0..3 {
+                // SAFETY: there is room for the widest lanes.
+                corners[c][d] = unsafe { N::load(self.x.0[c][d].as_ptr(), 0) };
+            }
         }
+        let Energy { strain, hourglass, min_j } = F::energy(&self.law, &SameShape(self.class), &corners);
+        let mut batch = Batch { strain: [0.0; MOST], hourglass: [0.0; MOST], min_j: [0.0; MOST] };
+        // SAFETY: as above.
+        unsafe {
+            strain.store(batch.strain.as_mut_ptr(), 0);
+            hourglass.store(batch.hourglass.as_mut_ptr(), 0);
+            min_j.store(batch.min_j.as_mut_ptr(), 0);
+        }
+        batch
     }
-    let Energy { strain, hourglass, min_j } = F::energy(&law, &SameShape(class), &corners);
-    let mut batch = Batch { strain: [0.0; W], hourglass: [0.0; W], min_j: [0.0; W] };
-    // SAFETY: as above.
-    unsafe {
-        strain.store(batch.strain.as_mut_ptr(), 0);
-        hourglass.store(batch.hourglass.as_mut_ptr(), 0);
-        min_j.store(batch.min_j.as_mut_ptr(), 0);
-    }
-    batch
 }

@@ -1,8 +1,8 @@
 use super::build::{inverse_areas, nodes, rim_nodes, rim_state, shape_table, stored, sub64};
-use super::elements::{self, Build, Composable, Elements, Kernel};
+use super::elements::{self, Elements, Kernel};
 use super::energies::Stored;
 use super::layout::{Item, Layout};
-use super::nodes::{Books, Conditions, LineContact, LineSums, NodePass, Nodes};
+use super::nodes::{Books, Conditions, LineContact, LineSums, Nodes};
 use super::reduce::total;
 use super::rim::RimState;
 use super::schedule::{Share, Task, shares};
@@ -71,19 +71,15 @@ pub struct CpuEngine<T> {
     pub(super) window_steps: u64,
 }
 
-impl<T: NodePass> CpuEngine<T>
-where
-    Composable: Build<T>,
-{
+impl<T: Real> CpuEngine<T> {
     /// An engine at rest in the reference shape, with the best instructions of this machine. `threads` = 0: as many as
     /// the mesh keeps busy, at most one a core.
     pub fn new(model: &Model, scene: &Scene, threads: usize) -> Self {
         CpuEngine::with_level(model, scene, threads, Level::detect())
     }
 
-    /// The same with chosen instructions, which the machine must have.
+    /// The same with chosen instructions.
     pub fn with_level(model: &Model, scene: &Scene, threads: usize, level: Level) -> Self {
-        assert!(level <= Level::detect(), "this machine has no {level:?}");
         let threads = match threads {
             0 => {
                 let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
@@ -92,7 +88,7 @@ where
             n => n,
         };
         let mesh = &model.mesh;
-        let width = elements::width(level, size_of::<T>() == 4);
+        let width = level.width::<T>();
         let mut layout = Layout::new(model, scene.road.is_some(), width);
         let surface_nodes = if scene.road.is_some() { mesh.surface.clone() } else { Vec::new() };
         let grain = frame::grain(mesh);
@@ -160,7 +156,7 @@ where
     }
 
     fn width(&self) -> usize {
-        elements::width(self.nodes.level, size_of::<T>() == 4)
+        self.nodes.level.width::<T>()
     }
 
     pub(super) fn view(&mut self) -> View<T> {
@@ -235,7 +231,7 @@ where
     }
 }
 
-impl<T: NodePass> CpuEngine<T> {
+impl<T: Real> CpuEngine<T> {
     /// sum 1/2 m v^2 [J].
     fn kinetic(&self) -> f64 {
         let square = |p: usize| self.v.get(p).iter().map(|c| c * c).sum::<f64>();
@@ -244,10 +240,7 @@ impl<T: NodePass> CpuEngine<T> {
     }
 }
 
-impl<T: NodePass> Engine for CpuEngine<T>
-where
-    Composable: Build<T>,
-{
+impl<T: Real> Engine for CpuEngine<T> {
     fn info(&self) -> EngineInfo {
         EngineInfo {
             engine: "cpu".into(),

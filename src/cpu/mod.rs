@@ -5,7 +5,6 @@ mod build;
 mod elements;
 mod energies;
 mod engine;
-pub(crate) mod family;
 mod layout;
 mod nodes;
 mod reduce;
@@ -38,7 +37,7 @@ pub fn engine(model: &Model, scene: &Scene, precision: Precision, threads: usize
     engine_at(model, scene, precision, threads, Level::detect())
 }
 
-/// The same with chosen instructions, which the machine must have.
+/// The same with chosen instructions.
 pub fn engine_at(
     model: &Model,
     scene: &Scene,

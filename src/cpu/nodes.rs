@@ -6,7 +6,7 @@ use super::state::{Aligned, Field, View};
 use crate::engine::SurfaceSum;
 use crate::physics::contact::{self, Touch};
 use crate::physics::friction::AnyFriction;
-use crate::physics::lanes::{Lanes, Level, Portable32, Portable64, WIDEST};
+use crate::physics::lanes::{InLanes, Instructions, Lanes, Level, WIDEST};
 use crate::physics::node::{self, Loads, Prediction, StepSize};
 use crate::physics::road::Plane;
 use crate::physics::scalar::{Real, Scalar};
@@ -545,88 +545,46 @@ unsafe fn fold<N: Lanes, const PROBE: bool>(
     }
 }
 
-/// The node pass of a precision, in the lanes of a level.
-pub trait NodePass: Real {
-    /// Steps the nodes of a line; `probe`: only books what the step would do.
-    ///
-    /// # Safety
-    /// No other thread touches the line's nodes, slots, surface entries or sums.
-    unsafe fn node_pass(
-        nodes: &Nodes<Self>,
-        c: &Conditions<Self>,
-        line: usize,
-        view: &View<Self>,
-        books: &Books,
-        probe: bool,
-    );
+/// Steps the nodes of a line; `probe`: only books what the step would do.
+///
+/// # Safety
+/// No other thread touches the line's nodes, slots, surface entries or sums.
+pub unsafe fn node_pass<T: Real>(
+    nodes: &Nodes<T>,
+    conditions: &Conditions<T>,
+    line: usize,
+    view: &View<T>,
+    books: &Books,
+    probe: bool,
+) {
+    nodes.level.call(Pass { nodes, conditions, line, view, books, probe });
 }
 
-macro_rules! node_pass {
-    ($real:ty, $portable:ty, $avx2:ident, $avx512:ident) => {
-        impl NodePass for $real {
-            unsafe fn node_pass(
-                nodes: &Nodes<Self>,
-                c: &Conditions<Self>,
-                line: usize,
-                view: &View<Self>,
-                books: &Books,
-                probe: bool,
-            ) {
-                #[inline(always)]
-                unsafe fn either<N: Lanes<Real = $real>>(
-                    nodes: &Nodes<$real>,
-                    c: &Conditions<$real>,
-                    line: usize,
-                    view: &View<$real>,
-                    books: &Books,
-                    probe: bool,
-                ) {
-                    unsafe {
-                        if probe {
-                            line_in::<N, true>(nodes, c, line, view, books)
-                        } else if nodes.lines.get_unchecked(line).plain && !c.has_gravity && !c.has_damping {
-                            plain_line::<N>(nodes, c, line, view, books)
-                        } else {
-                            line_in::<N, false>(nodes, c, line, view, books)
-                        }
-                    }
-                }
-                #[cfg(target_arch = "x86_64")]
-                {
-                    #[target_feature(enable = "avx2,fma")]
-                    unsafe fn avx2(
-                        nodes: &Nodes<$real>,
-                        c: &Conditions<$real>,
-                        line: usize,
-                        view: &View<$real>,
-                        books: &Books,
-                        probe: bool,
-                    ) {
-                        use crate::physics::lanes::$avx2;
-                        unsafe { either::<$avx2>(nodes, c, line, view, books, probe) }
-                    }
-                    #[target_feature(enable = "avx512f,fma")]
-                    unsafe fn avx512(
-                        nodes: &Nodes<$real>,
-                        c: &Conditions<$real>,
-                        line: usize,
-                        view: &View<$real>,
-                        books: &Books,
-                        probe: bool,
-                    ) {
-                        use crate::physics::lanes::$avx512;
-                        unsafe { either::<$avx512>(nodes, c, line, view, books, probe) }
-                    }
-                    match nodes.level {
-                        Level::Avx512 => return unsafe { avx512(nodes, c, line, view, books, probe) },
-                        Level::Avx2 => return unsafe { avx2(nodes, c, line, view, books, probe) },
-                        Level::Portable => {}
-                    }
-                }
-                unsafe { either::<$portable>(nodes, c, line, view, books, probe) }
+/// The pass over a line; made by [`node_pass`] alone, whose safety contract it is under.
+struct Pass<'a, T> {
+    nodes: &'a Nodes<T>,
+    conditions: &'a Conditions<T>,
+    line: usize,
+    view: &'a View<T>,
+    books: &'a Books,
+    probe: bool,
+}
+
+impl<T: Real> InLanes<T> for Pass<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<N: Lanes<Real = T>>(self) {
+        let Pass { nodes, conditions: c, line, view, books, probe } = self;
+        // SAFETY: the contract of `node_pass`; the line is one of these nodes'.
+        unsafe {
+            if probe {
+                line_in::<N, true>(nodes, c, line, view, books)
+            } else if nodes.lines.get_unchecked(line).plain && !c.has_gravity && !c.has_damping {
+                plain_line::<N>(nodes, c, line, view, books)
+            } else {
+                line_in::<N, false>(nodes, c, line, view, books)
             }
         }
-    };
+    }
 }
-node_pass!(f64, Portable64, F64x4, F64x8);
-node_pass!(f32, Portable32, F32x8, F32x16);

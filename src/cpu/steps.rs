@@ -1,9 +1,9 @@
 //! Steps: forces and nodes by threads that meet, and the step that is only looked at.
 
-use super::elements::{Build, Composable, Failed, Power};
+use super::elements::{Failed, Power};
 use super::engine::CpuEngine;
 use super::layout::Line;
-use super::nodes::{Books, Conditions, LineContact, LineSums, NodePass};
+use super::nodes::{Books, Conditions, LineContact, LineSums, node_pass};
 use super::reduce::total;
 use super::rim::{Reaction, RimState};
 use super::schedule::Task;
@@ -14,14 +14,12 @@ use crate::physics::lanes::WIDEST;
 use crate::physics::node::{Loads, Prediction, StepSize};
 use crate::physics::rim::{self, Coordinates};
 use crate::physics::road::Plane;
+use crate::physics::scalar::Real;
 use crate::physics::tensor::{Vec3, vec3};
 use crate::scene::Road;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-impl<T: NodePass> CpuEngine<T>
-where
-    Composable: Build<T>,
-{
+impl<T: Real> CpuEngine<T> {
     /// Conditions of step number `number`, which takes the rim from coordinates `before` to `q`. `probe`: works over
     /// the half step before.
     pub(super) fn conditions(
@@ -162,7 +160,7 @@ where
                     failed.0 = [failed.0, bad.0].into_iter().flatten().min();
                 },
                 Task::Move(line) => unsafe {
-                    T::node_pass(&self.nodes, conditions, line as usize, view, books, probe);
+                    node_pass(&self.nodes, conditions, line as usize, view, books, probe);
                 },
             }
         }
@@ -186,7 +184,7 @@ where
     /// No other thread works on this share.
     unsafe fn late(&self, member: usize, c: &Conditions<T>, view: &View<T>, books: &Books, probe: bool) {
         for &line in &self.shares[member].late {
-            unsafe { T::node_pass(&self.nodes, c, line as usize, view, books, probe) };
+            unsafe { node_pass(&self.nodes, c, line as usize, view, books, probe) };
         }
     }
 

@@ -282,15 +282,15 @@ impl Choice {
     }
 
     fn needs_i2(&self) -> bool {
-        !matches!(self.law, Law::NeoHookean { .. })
+        self.law.has_i2()
     }
 
     fn element_parts(&self) -> Vec<&'static str> {
         let recip_cbrt = self.of_real("real/recip_cbrt_single", "real/recip_cbrt_double");
         let law = match self.law {
-            Law::NeoHookean { .. } => vec!["material/neo_hookean", recip_cbrt],
-            Law::MooneyRivlin { .. } => vec!["material/mooney_rivlin", recip_cbrt],
-            Law::MooneyRivlinEq4 { .. } => [vec!["material/mooney_rivlin_eq4"], self.logarithm()].concat(),
+            Law::NeoHookean(_) => vec!["material/neo_hookean", recip_cbrt],
+            Law::MooneyRivlin(_) => vec!["material/mooney_rivlin", recip_cbrt],
+            Law::MooneyRivlinEq4(_) => [vec!["material/mooney_rivlin_eq4"], self.logarithm()].concat(),
         };
         let invariants = if self.needs_i2() { "lib/invariants_i2" } else { "lib/invariants_i1" };
         let classes = if self.shared_classes { "class/shared" } else { "class/own" };

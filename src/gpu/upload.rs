@@ -37,12 +37,8 @@ pub fn member(counts: &Counts, body: usize, steps: usize) -> Member {
 
 /// Values of every constant a kernel may declare.
 pub fn constants(model: &Model, scene: &Scene, chains: &Chains) -> Vec<(&'static str, f64)> {
-    use crate::scene::Law::*;
-    let [g0, g1, g2] = match model.law {
-        NeoHookean { g0, g1 } => [g0, g1, 0.0],
-        MooneyRivlin { g0, g1, g2 } | MooneyRivlinEq4 { g0, g1, g2 } => [g0, g1, g2],
-    };
-    let mut all = vec![("g0", g0), ("g1", g1), ("g2", g2), ("eta", model.viscosity.unwrap_or(0.0))];
+    let mut all = model.law.constants();
+    all.push(("eta", model.viscosity.unwrap_or(0.0)));
     all.extend(["gravity_x", "gravity_y", "gravity_z"].into_iter().zip(scene.gravity));
     all.push(("face_slots", chains.face as f64));
     all.extend(chains.lattice.iter().flat_map(|l| l.constants(chains.longest)));

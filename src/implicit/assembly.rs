@@ -37,7 +37,7 @@ pub struct Stored {
 
 impl<'a> Assembler<'a> {
     pub fn new(model: &'a Model) -> Self {
-        let kernel = compose(model.element, model.law, model.viscosity, &model.classes);
+        let kernel = compose(&model.composition(), &model.classes);
         Assembler { model, kernel }
     }
 

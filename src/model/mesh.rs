@@ -1,35 +1,9 @@
 //! Eight-node hexahedral meshes: generators, node sets by construction, boundary facets.
-//!
-//! Corner numbering of an element (xi, eta, zeta = -1 or +1):
-//!
-//! ```text
-//!        7--------6        corner a: xi   = + for 1 2 5 6
-//!       /|       /|                  eta  = + for 2 3 6 7
-//!      4--------5 |                  zeta = + for 4 5 6 7
-//!      | 3------|-2
-//!      |/       |/         zeta eta
-//!      0--------1             |/_ xi
-//! ```
 
 use std::f64::consts::TAU;
 
+pub use crate::physics::element::hex8::{FACES, SIGNS};
 use crate::scene::{Grading, Hold, MeshSpec, NodeSet};
-
-/// Corners of the six faces, counter-clockwise seen from outside.
-pub const FACES: [[usize; 4]; 6] =
-    [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
-
-/// Signs of (xi, eta, zeta) at the eight corners.
-pub const SIGNS: [[f64; 3]; 8] = [
-    [-1., -1., -1.],
-    [1., -1., -1.],
-    [1., 1., -1.],
-    [-1., 1., -1.],
-    [-1., -1., 1.],
-    [1., -1., 1.],
-    [1., 1., 1.],
-    [-1., 1., 1.],
-];
 
 /// A mesh of hexahedra in its reference shape.
 #[derive(Debug, Clone)]

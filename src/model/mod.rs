@@ -7,7 +7,7 @@ pub mod frame;
 pub mod mesh;
 
 use crate::error::{Error, Result};
-use crate::physics::element::Class;
+use crate::physics::element::{Class, Composition};
 use crate::scene::{Body, Element, Law, Lumping, Scene};
 use mesh::Mesh;
 use std::sync::Arc;
@@ -80,6 +80,11 @@ impl Model {
 
     pub fn node_count(&self) -> usize {
         self.mesh.nodes.len()
+    }
+
+    /// What the elements' forces are made of.
+    pub fn composition(&self) -> Composition {
+        Composition { element: self.element, law: self.law, viscosity: self.viscosity }
     }
 
     /// Whether every element is a plane figure extruded along eta.

@@ -6,6 +6,7 @@ pub mod friction;
 pub mod lanes;
 pub mod material;
 pub mod node;
+pub mod parameters;
 pub mod rim;
 pub mod road;
 pub mod scalar;

@@ -1,6 +1,6 @@
 //! The arithmetic the physics is written in.
 
-use super::lanes::{GUESS_F32, GUESS_F64};
+use super::lanes::{GUESS_F32, GUESS_F64, Vectors};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A number, or several lanes of one. No comparisons here: the element physics has no branches.
@@ -50,7 +50,7 @@ pub trait Scalar:
 }
 
 /// A single number with an order and a square root: what the node physics (contact, friction) needs.
-pub trait Real: Scalar + PartialOrd + bytemuck::Pod {
+pub trait Real: Scalar + PartialOrd + bytemuck::Pod + Vectors {
     /// Unit round-off doubled: the distance from 1 to the next number.
     const EPSILON: f64;
     fn to_f64(self) -> f64;

@@ -4,6 +4,7 @@ use crate::Result;
 use crate::cpu::{self, Precision};
 use crate::engine::{Engine, StageSetup, Step};
 use crate::model::Model;
+use crate::physics::material::NeoHookean;
 use crate::record::{Sample, Snapshot};
 use crate::run::{self, Observer, Progress, Totals};
 use crate::scene::*;
@@ -12,7 +13,7 @@ use crate::scene::*;
 pub const DENSITY: f64 = 1100.0;
 pub const G: f64 = 2.64e6;
 pub const KAPPA: f64 = 65.1e6;
-pub const RUBBER: Law = Law::NeoHookean { g0: KAPPA, g1: G };
+pub const RUBBER: Law = Law::NeoHookean(NeoHookean { g0: KAPPA, g1: G });
 
 /// A rim that stays where it is.
 pub const HELD: RimMotion = RimMotion {

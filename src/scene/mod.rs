@@ -9,6 +9,9 @@ mod overrides;
 mod reader;
 mod units;
 
+pub use crate::physics::element::{Element, Lumping};
+pub use crate::physics::material::Law;
+
 use std::path::PathBuf;
 
 /// A simulation as its scene file describes it, in SI units.
@@ -111,47 +114,6 @@ impl Default for Grading {
     fn default() -> Self {
         Grading { ratio: [1.0; 3], fine_arc: 0.0 }
     }
-}
-
-/// Hyperelastic laws (mechanics: eqs. 4-6). g0, g1, g2 in Pa.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Law {
-    /// `mooney-rivlin` with g2 = 0: its own, cheaper, code.
-    NeoHookean {
-        g0: f64,
-        g1: f64,
-    },
-    MooneyRivlin {
-        g0: f64,
-        g1: f64,
-        g2: f64,
-    },
-    MooneyRivlinEq4 {
-        g0: f64,
-        g1: f64,
-        g2: f64,
-    },
-}
-
-/// Element formulations (eqs. 11-14).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Element {
-    /// 2x2x2 points for the isochoric part, one mean-dilatation pressure (Simo-Taylor-Pister).
-    Q1p0,
-    /// 2x2x2 points for everything.
-    Full,
-    /// Volume-averaged gradients (Flanagan-Belytschko) with hourglass stiffness `hourglass` times G.
-    UniformGradient { hourglass: f64 },
-}
-
-/// How an element's mass is given to its corners.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Lumping {
-    /// Row sums of the consistent mass matrix, rho int N_a dV: keeps the centre of mass. The default.
-    #[default]
-    RowSum,
-    /// An eighth to each corner, as OpenRadioss and others do; the same on parallelepipeds.
-    Equal,
 }
 
 /// A rigid body glued to a node set.

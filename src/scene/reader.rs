@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use super::document::{Node, Value, join};
 use super::units::Dimension;
 use crate::error::{Error, Result};
+pub(super) use crate::physics::parameters::Bound;
 
 /// A value of the document with its dotted key.
 #[derive(Debug, Clone)]
@@ -20,14 +21,6 @@ pub(super) struct Item<'a> {
 pub(super) struct Table<'a> {
     pub item: Item<'a>,
     entries: &'a BTreeMap<String, Node>,
-}
-
-/// Numbers that make sense for a key.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Bound {
-    Any,
-    Positive,
-    NotNegative,
 }
 
 /// Something that a scene may name in a later version, and what to do until then.

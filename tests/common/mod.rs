@@ -5,6 +5,7 @@ use hexroll::cpu::{self, Precision};
 use hexroll::engine::{Engine, StageSetup, Step, Window};
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
+use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
 use hexroll::record::{Sample, Snapshot};
 use hexroll::run::{Observer, Progress, Totals};
 use hexroll::scene::*;
@@ -13,13 +14,16 @@ use hexroll::scene::*;
 pub const DENSITY: f64 = 1100.0;
 pub const G: f64 = 2.64e6;
 pub const KAPPA: f64 = 65.1e6;
-pub const RUBBER: Law = Law::NeoHookean { g0: KAPPA, g1: G };
-/// One of each law, with the rubber's moduli or near them.
-pub const LAWS: [Law; 3] = [
-    RUBBER,
-    Law::MooneyRivlin { g0: KAPPA, g1: 0.7 * G, g2: 0.3 * G },
-    Law::MooneyRivlinEq4 { g0: KAPPA, g1: 0.7 * G, g2: 0.3 * G },
-];
+pub const RUBBER: Law = Law::NeoHookean(NeoHookean { g0: KAPPA, g1: G });
+/// The same moduli with two constants, and the law of the paper's eq. 4 (whose bulk modulus is KAPPA + 2/3 G).
+pub const TWO_CONSTANTS: Law = Law::MooneyRivlin(MooneyRivlin { g0: KAPPA, g1: 0.7 * G, g2: 0.3 * G });
+pub const EQ4: Law = Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0: KAPPA, g1: 0.7 * G, g2: 0.3 * G });
+
+/// One of each law, with the rubber's moduli.
+pub fn laws() -> impl Iterator<Item = Law> {
+    Law::KINDS.iter().map(|kind| (kind.example)(G, KAPPA))
+}
+
 pub const ELEMENTS: [Element; 3] =
     [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
 /// A rim that stays where it is.

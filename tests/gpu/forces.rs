@@ -8,6 +8,7 @@ use crate::rig::{self, Noise, Who, note, relative, scene};
 use hexroll::gpu::Gpu;
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
+use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
 use hexroll::scene::{Body, Element, Law, MeshSpec, Scene};
 
 /// Relative L2 error of the forces. Single precision leaves 6e-8 of a coordinate of 30 mm, which is 2e-7 of an edge of
@@ -18,9 +19,9 @@ const TOLERANCE: f64 = 5e-6;
 const ELEMENTS: [Element; 3] = [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
 
 const LAWS: [Law; 3] = [
-    Law::NeoHookean { g0: 10e6, g1: 2.64e6 },
-    Law::MooneyRivlin { g0: 10e6, g1: 2e6, g2: 0.64e6 },
-    Law::MooneyRivlinEq4 { g0: 10e6, g1: 2e6, g2: 0.64e6 },
+    Law::NeoHookean(NeoHookean { g0: 10e6, g1: 2.64e6 }),
+    Law::MooneyRivlin(MooneyRivlin { g0: 10e6, g1: 2e6, g2: 0.64e6 }),
+    Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0: 10e6, g1: 2e6, g2: 0.64e6 }),
 ];
 
 struct Case {
@@ -80,12 +81,14 @@ impl Case {
 
 fn scaled(law: Law, by: [f64; 3]) -> Law {
     match law {
-        Law::NeoHookean { g0, g1 } => Law::NeoHookean { g0: g0 * by[0], g1: g1 * by[1] },
-        Law::MooneyRivlin { g0, g1, g2 } => {
-            Law::MooneyRivlin { g0: g0 * by[0], g1: g1 * by[1], g2: g2 * by[2] }
+        Law::NeoHookean(NeoHookean { g0, g1 }) => {
+            Law::NeoHookean(NeoHookean { g0: g0 * by[0], g1: g1 * by[1] })
         }
-        Law::MooneyRivlinEq4 { g0, g1, g2 } => {
-            Law::MooneyRivlinEq4 { g0: g0 * by[0], g1: g1 * by[1], g2: g2 * by[2] }
+        Law::MooneyRivlin(MooneyRivlin { g0, g1, g2 }) => {
+            Law::MooneyRivlin(MooneyRivlin { g0: g0 * by[0], g1: g1 * by[1], g2: g2 * by[2] })
+        }
+        Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0, g1, g2 }) => {
+            Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0: g0 * by[0], g1: g1 * by[1], g2: g2 * by[2] })
         }
     }
 }
@@ -97,7 +100,7 @@ fn mutants(body: &Body) -> Vec<(&'static str, Body)> {
         ("g0", with(scaled(body.law, [1.001, 1.0, 1.0]))),
         ("g1", with(scaled(body.law, [1.0, 1.001, 1.0]))),
     ];
-    if !matches!(body.law, Law::NeoHookean { .. }) {
+    if !matches!(body.law, Law::NeoHookean(_)) {
         all.push(("g2", with(scaled(body.law, [1.0, 1.0, 1.001]))));
     }
     if let Some(eta) = body.viscosity {

@@ -6,10 +6,11 @@ use hexroll::implicit::problem::Problem;
 use hexroll::implicit::{Inner, Limits, Newton, Scheme, Simulation, Target};
 use hexroll::model::Model;
 use hexroll::physics::friction::Coulomb;
+use hexroll::physics::material::NeoHookean;
 use hexroll::physics::road::Plane;
 use hexroll::scene::{Body, Element, Law, Lumping, MeshSpec, NodeSet};
 
-pub const WHEEL_LAW: Law = Law::NeoHookean { g0: 65.1e6, g1: 2.64e6 };
+pub const WHEEL_LAW: Law = Law::NeoHookean(NeoHookean { g0: 65.1e6, g1: 2.64e6 });
 
 pub fn body(mesh: MeshSpec, law: Law, element: Element) -> Body {
     Body {

@@ -4,13 +4,14 @@
 use super::fixtures::{body, model};
 use hexroll::implicit::assembly::Assembler;
 use hexroll::implicit::matrix::BlockMatrix;
+use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
 use hexroll::scene::{Element, Law, MeshSpec};
 
 const ELEMENTS: [Element; 3] = [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
 const LAWS: [Law; 3] = [
-    Law::NeoHookean { g0: 65.1e6, g1: 2.64e6 },
-    Law::MooneyRivlin { g0: 65.1e6, g1: 2.0e6, g2: 0.64e6 },
-    Law::MooneyRivlinEq4 { g0: 63.0e6, g1: 2.0e6, g2: 0.64e6 },
+    Law::NeoHookean(NeoHookean { g0: 65.1e6, g1: 2.64e6 }),
+    Law::MooneyRivlin(MooneyRivlin { g0: 65.1e6, g1: 2.0e6, g2: 0.64e6 }),
+    Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0: 63.0e6, g1: 2.0e6, g2: 0.64e6 }),
 ];
 
 fn noise(n: usize, scale: f64) -> Vec<[f64; 3]> {

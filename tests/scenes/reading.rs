@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
 use hexroll::scene::{
     Body, Drive, Element, Field, Friction, Hold, InitialVelocity, Law, MeshSpec, Method, NodeSet, Picture,
     Rim, Road, Scene, Snapshots,
@@ -23,7 +24,7 @@ fn a_scene_is_read_whole_and_in_si() {
     let Body { density, law, viscosity, element, offset, .. } = &scene.body;
     assert_eq!((*density, *viscosity, *element), (1100.0, None, Element::UniformGradient { hourglass: 0.2 }));
     assert_eq!(*offset, [0.001, 0.0, 0.0]);
-    let Law::NeoHookean { g0, g1 } = *law else { panic!("g2 = 0 is neo-Hookean") };
+    let Law::NeoHookean(NeoHookean { g0, g1 }) = *law else { panic!("g2 = 0 is neo-Hookean") };
     near(g0, 65.1e6);
     near(g1, 2.64e6);
     let MeshSpec::Ring { outer_radius, elements, .. } = scene.body.mesh else { panic!("not a ring") };
@@ -85,16 +86,19 @@ fn law(material: &str) -> Law {
 #[test]
 fn moduli_and_constants_map_as_the_law_says() {
     let both = r#"shear_modulus = "3 MPa", bulk_modulus = "60 MPa""#;
-    assert_eq!(law(both), Law::NeoHookean { g0: 60e6, g1: 3e6 });
-    assert_eq!(law(&format!("law = \"neo-hookean\", {both}")), Law::NeoHookean { g0: 60e6, g1: 3e6 });
+    assert_eq!(law(both), Law::NeoHookean(NeoHookean { g0: 60e6, g1: 3e6 }));
+    assert_eq!(
+        law(&format!("law = \"neo-hookean\", {both}")),
+        Law::NeoHookean(NeoHookean { g0: 60e6, g1: 3e6 })
+    );
     // Eq. 4's undeviatored terms add 2/3 G to the bulk modulus.
-    let eq4 = Law::MooneyRivlinEq4 { g0: 58e6, g1: 3e6, g2: 0.0 };
+    let eq4 = Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0: 58e6, g1: 3e6, g2: 0.0 });
     assert_eq!(law(&format!("law = \"mooney-rivlin-eq4\", {both}")), eq4);
     let three = r#"g0 = "60 MPa", g1 = "2 MPa", g2 = "1 MPa""#;
-    assert_eq!(law(three), Law::MooneyRivlin { g0: 60e6, g1: 2e6, g2: 1e6 });
-    let eq4 = Law::MooneyRivlinEq4 { g0: 60e6, g1: 2e6, g2: 1e6 };
+    assert_eq!(law(three), Law::MooneyRivlin(MooneyRivlin { g0: 60e6, g1: 2e6, g2: 1e6 }));
+    let eq4 = Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0: 60e6, g1: 2e6, g2: 1e6 });
     assert_eq!(law(&format!("law = \"mooney-rivlin-eq4\", {three}")), eq4);
-    assert_eq!(law(r#"g0 = "60 MPa", g1 = "2 MPa""#), Law::NeoHookean { g0: 60e6, g1: 2e6 });
+    assert_eq!(law(r#"g0 = "60 MPa", g1 = "2 MPa""#), Law::NeoHookean(NeoHookean { g0: 60e6, g1: 2e6 }));
 }
 
 #[test]

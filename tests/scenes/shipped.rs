@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use hexroll::Error;
+use hexroll::physics::material::NeoHookean;
 use hexroll::scene::{
     Drive, Element, Friction, ImplicitScheme, InitialVelocity, Law, MeshSpec, Method, NodeSet, Rim, Road,
     Scene,
@@ -57,7 +58,7 @@ fn every_wheel_is_the_papers() {
         };
         let micrometers = [outer_radius, inner_radius, width].map(|l| (l * 1e6).round());
         assert_eq!((micrometers, elements), ([39000.0, 17000.0, 17500.0], [44, 4, 5]), "{stem}");
-        let Law::NeoHookean { g0, g1 } = scene.body.law else { panic!("{stem}: another law") };
+        let Law::NeoHookean(NeoHookean { g0, g1 }) = scene.body.law else { panic!("{stem}: another law") };
         assert_eq!((g0.round(), g1.round(), scene.body.density), (65.1e6, 2.64e6, 1100.0), "{stem}");
         assert_eq!((scene.body.element, scene.body.viscosity), (Element::Q1p0, eta), "{stem}");
         assert_eq!(scene.friction, Some(Friction::Coulomb { mu }), "{stem}");

@@ -1,6 +1,7 @@
 //! Every unit of every dimension converts to SI; what is not a quantity is refused with the units that are.
 
 use hexroll::Error;
+use hexroll::physics::material::NeoHookean;
 use hexroll::scene::{Drive, Law, Scene};
 
 use crate::good;
@@ -27,7 +28,7 @@ fn numbers(drive: Drive) -> (f64, f64) {
 #[test]
 fn units_of_the_body() {
     let modulus = |s: &Scene| match s.body.law {
-        Law::NeoHookean { g1, .. } => g1,
+        Law::NeoHookean(NeoHookean { g1, .. }) => g1,
         other => panic!("{other:?}"),
     };
     converts(

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::model::Model;
+use crate::physics::parameters::{Parameter, Quantity};
 use crate::scene::{Element, Grading, Law, Lumping, MeshSpec, NodeSet, Scene};
 
 /// The body as it is meshed.
@@ -117,10 +118,12 @@ fn element_text(element: Element) -> String {
 fn constants(law: &Law) -> String {
     // Ten digits: what the file says, without the round-off of reading it.
     let mpa = |v: f64| format!("{} MPa", (v * 1e4).round() / 1e10);
-    match *law {
-        Law::NeoHookean { g0, g1 } => format!("g0 = {}, g1 = {}", mpa(g0), mpa(g1)),
-        Law::MooneyRivlin { g0, g1, g2 } | Law::MooneyRivlinEq4 { g0, g1, g2 } => {
-            format!("g0 = {}, g1 = {}, g2 = {}", mpa(g0), mpa(g1), mpa(g2))
-        }
-    }
+    let (parameters, values) = law.parameters();
+    let one = |(p, value): (&Parameter, f64)| match p.quantity {
+        Quantity::Stress => format!("{} = {}", p.key, mpa(value)),
+        Quantity::Number => format!("{} = {value}", p.key),
+        Quantity::Speed => format!("{} = {value} m/s", p.key),
+        Quantity::Slowness => format!("{} = {value} s/m", p.key),
+    };
+    parameters.iter().zip(values).map(one).collect::<Vec<_>>().join(", ")
 }

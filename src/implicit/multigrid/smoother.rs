@@ -1,11 +1,28 @@
 //! Multiplicative relaxation of overlapping element blocks (24 unknowns each).
 
 use crate::implicit::matrix::BlockMatrix;
-use crate::physics::lanes::{Lanes, Level, Portable64};
+use crate::physics::lanes::{InLanes, Instructions, Lanes, Level};
 use crate::physics::tensor::Vec3;
 use rayon::prelude::*;
 
 const N: usize = 24;
+
+struct Relaxation<'a> {
+    blocks: &'a ElementBlocks,
+    element: u32,
+    matrix: &'a BlockMatrix,
+    b: &'a [Vec3<f64>],
+    x: &'a Shared,
+}
+
+impl InLanes<f64> for Relaxation<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes<Real = f64>>(self) {
+        self.blocks.relax_in::<L>(self.element, self.matrix, self.b, self.x);
+    }
+}
 
 /// Inverses of every element's 24x24 part of the assembled matrix. In single precision: a smoother need not be exact,
 /// and they are most of the memory.
@@ -60,37 +77,7 @@ impl ElementBlocks {
     }
 
     fn relax(&self, element: u32, matrix: &BlockMatrix, b: &[Vec3<f64>], x: &Shared) {
-        #[cfg(target_arch = "x86_64")]
-        {
-            use crate::physics::lanes::{F64x4, F64x8};
-            #[target_feature(enable = "avx2,fma")]
-            unsafe fn avx2(
-                this: &ElementBlocks,
-                element: u32,
-                matrix: &BlockMatrix,
-                b: &[Vec3<f64>],
-                x: &Shared,
-            ) {
-                this.relax_in::<F64x4>(element, matrix, b, x);
-            }
-            #[target_feature(enable = "avx512f,avx2,fma")]
-            unsafe fn avx512(
-                this: &ElementBlocks,
-                element: u32,
-                matrix: &BlockMatrix,
-                b: &[Vec3<f64>],
-                x: &Shared,
-            ) {
-                this.relax_in::<F64x8>(element, matrix, b, x);
-            }
-            // SAFETY: the level says that the machine has the instructions.
-            match self.level {
-                Level::Avx512 => return unsafe { avx512(self, element, matrix, b, x) },
-                Level::Avx2 => return unsafe { avx2(self, element, matrix, b, x) },
-                Level::Portable => {}
-            }
-        }
-        self.relax_in::<Portable64>(element, matrix, b, x);
+        self.level.call(Relaxation { blocks: self, element, matrix, b, x });
     }
 
     /// A block's nine products with the three unknowns of its column are taken lane by lane and summed over the row first.

@@ -1,7 +1,7 @@
 use super::hex8::{self, Corners, Shape};
 use super::q1p0::{points, pointwise_energy};
 use super::{Class, Energy, Force, Formulation};
-use crate::physics::material::{Law, Viscosity};
+use crate::physics::material::{Hyperelastic, Viscosity};
 use crate::physics::scalar::Scalar;
 use std::ops::Range;
 
@@ -19,7 +19,7 @@ impl<const EXTRUDED: bool> Formulation for FullOf<EXTRUDED> {
     const NUMBERS: Range<usize> = Class::<f64>::OF_POINTS;
 
     #[inline(always)]
-    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
+    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>>(
         law: &L,
         viscosity: &V,
         class: &G,
@@ -30,7 +30,7 @@ impl<const EXTRUDED: bool> Formulation for FullOf<EXTRUDED> {
     }
 
     #[inline(always)]
-    fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
+    fn energy<S: Scalar, L: Hyperelastic, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
         pointwise_energy::<S, L, G, true>(law, class, &hex8::gradients(x))
     }
 }

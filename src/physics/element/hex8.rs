@@ -3,17 +3,44 @@
 //!
 //! dx/dxi depends on (eta, zeta) only: at the four Gauss lines it is a bilinear interpolation of the four edge
 //! differences along xi. The same (symmetric) interpolation takes force columns back to the edges.
+//!
+//! Corner numbering of an element (xi, eta, zeta = -1 or +1):
+//!
+//! ```text
+//!        7--------6        corner a: xi   = + for 1 2 5 6
+//!       /|       /|                  eta  = + for 2 3 6 7
+//!      4--------5 |                  zeta = + for 4 5 6 7
+//!      | 3------|-2
+//!      |/       |/         zeta eta
+//!      0--------1             |/_ xi
+//! ```
 
+use super::Lumping;
 use crate::physics::lanes::Lanes;
-use crate::physics::material::{Derivatives, Law};
+use crate::physics::material::{Derivatives, Hyperelastic};
 use crate::physics::scalar::Scalar;
 use crate::physics::tensor::{
     Mat3, Metric, Sym3, Vec3, add, axpy, cofactor, combined, cross, det, dot, neg, scale, sub,
 };
-use crate::scene::Lumping;
 use std::ops::Range;
 
-/// One vector a corner, numbered as in [`crate::model::mesh`].
+/// Corners of the six faces, counter-clockwise seen from outside.
+pub const FACES: [[usize; 4]; 6] =
+    [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
+
+/// Signs of (xi, eta, zeta) at the eight corners.
+pub const SIGNS: [[f64; 3]; 8] = [
+    [-1., -1., -1.],
+    [1., -1., -1.],
+    [1., 1., -1.],
+    [-1., 1., -1.],
+    [-1., -1., 1.],
+    [1., -1., 1.],
+    [1., 1., 1.],
+    [-1., 1., 1.],
+];
+
+/// One vector a corner.
 pub type Corners<S> = [Vec3<S>; 8];
 
 /// Edges (from, to) along each direction d; the edge index is the sign bits of the other two directions,
@@ -23,7 +50,6 @@ pub const EDGES: [[(usize, usize); 4]; 3] =
 
 /// See [`Class::extruded`]; of elements that are not extruded, parts of what they have.
 fn extruded(X: &Corners<f64>, gradient: &Corners<f64>) -> [f64; 9] {
-    use crate::model::mesh::SIGNS;
     // A field's share of a pattern: products of the signs of xi, eta, zeta.
     let share = |of: &Corners<f64>, along: [bool; 3]| {
         let sign = |a: usize| (0..3).filter(|&d| along[d]).map(|d| SIGNS[a][d]).product::<f64>();
@@ -176,7 +202,7 @@ pub struct Invariants<S> {
 /// I1 and, where the law wants it, I2 of C = J0^-T G J0^-1 with G = A^T A: I1 = G : M, tr C^2 = G : M G M. Without I2, of G's entries
 /// off the diagonal only those are read where M has some.
 #[inline(always)]
-pub fn invariants<S: Scalar, L: Law<S>, M: Metric<S>>(gram: &Sym3<S>, metric: &M) -> Invariants<S> {
+pub fn invariants<S: Scalar, L: Hyperelastic, M: Metric<S>>(gram: &Sym3<S>, metric: &M) -> Invariants<S> {
     let i1 = metric.contracted(gram);
     if !L::HAS_I2 {
         return Invariants { i1, i2: S::zero(), square: Sym3::zero() };
@@ -189,7 +215,7 @@ pub fn invariants<S: Scalar, L: Law<S>, M: Metric<S>>(gram: &Sym3<S>, metric: &M
 /// force of a point on corner a is sum_d G_d dN_a/dxi_d with G = A S + (weight (WJ + p) I + weight sigma_v) cof A, where
 /// dV = weight det J0. With the mean gradient in place of a point's, dV and weight are 1.
 #[inline(always)]
-pub fn second_piola<S: Scalar, L: Law<S>, M: Metric<S>>(
+pub fn second_piola<S: Scalar, L: Hyperelastic, M: Metric<S>>(
     k: &Invariants<S>,
     d: &Derivatives<S>,
     metric: &M,
@@ -213,7 +239,7 @@ pub fn second_piola<S: Scalar, L: Law<S>, M: Metric<S>>(
 
 /// F S with the S of [`second_piola`] for the identity as metric: the first Piola stress but for what goes with cof F.
 #[inline(always)]
-pub fn times_second_piola<S: Scalar, L: Law<S>>(f: &Mat3<S>, s: &Sym3<S>) -> Mat3<S> {
+pub fn times_second_piola<S: Scalar, L: Hyperelastic>(f: &Mat3<S>, s: &Sym3<S>) -> Mat3<S> {
     if !L::HAS_I2 {
         return [scale(f[0], s.xx), scale(f[1], s.yy), scale(f[2], s.zz)];
     }
@@ -424,7 +450,7 @@ impl Class<f64> {
         let mut volumes = [0.0; 8];
         for (q, d) in self.det_j0.iter().enumerate() {
             let point = [q & 1, (q >> 1) & 1, (q >> 2) & 1].map(|bit| if bit == 1 { GAUSS } else { -GAUSS });
-            for (a, s) in crate::model::mesh::SIGNS.iter().enumerate() {
+            for (a, s) in SIGNS.iter().enumerate() {
                 let n: f64 = (0..3).map(|d| 0.5 * (1.0 + s[d] * point[d])).product();
                 volumes[a] += n * d;
             }

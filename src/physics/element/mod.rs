@@ -10,19 +10,42 @@
 //! so geometry enters through M and det J0 alone. Neither changes when an element is rotated or moved: elements
 //! that share them share a [`Class`].
 
+mod composition;
 mod full;
 pub mod hex8;
 mod q1p0;
 mod uniform_gradient;
 
+pub use composition::{Compose, Composition};
 pub use full::{ExtrudedFull, Full};
 pub use hex8::{Class, Corners, LaneShapes, SameShape, Shape};
 pub use q1p0::{ExtrudedQ1p0, Q1p0};
 pub use uniform_gradient::{ExtrudedUniformGradient, UniformGradient};
 
-use super::material::{Law, Viscosity};
+use super::material::{Hyperelastic, Viscosity};
 use super::scalar::Scalar;
 use std::ops::Range;
+
+/// Element formulations (eqs. 11-14).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Element {
+    /// 2x2x2 points for the isochoric part, one mean-dilatation pressure (Simo-Taylor-Pister).
+    Q1p0,
+    /// 2x2x2 points for everything.
+    Full,
+    /// Volume-averaged gradients (Flanagan-Belytschko) with hourglass stiffness `hourglass` times G.
+    UniformGradient { hourglass: f64 },
+}
+
+/// How an element's mass is given to its corners.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Lumping {
+    /// Row sums of the consistent mass matrix, rho int N_a dV: keeps the centre of mass. The default.
+    #[default]
+    RowSum,
+    /// An eighth to each corner, as OpenRadioss and others do; the same on parallelepipeds.
+    Equal,
+}
 
 /// What the force pass of an element returns.
 #[derive(Debug, Clone, Copy)]
@@ -52,7 +75,7 @@ pub trait Formulation: Copy + Send + Sync + 'static {
     const NUMBERS: Range<usize>;
 
     /// Internal force of one element (or one lane batch) from corner positions and half-step velocities.
-    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
+    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>>(
         law: &L,
         viscosity: &V,
         class: &G,
@@ -61,5 +84,5 @@ pub trait Formulation: Copy + Send + Sync + 'static {
     ) -> Force<S>;
 
     /// Stored energy of one element, whose gradient with respect to x is the elastic part of the force.
-    fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S>;
+    fn energy<S: Scalar, L: Hyperelastic, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S>;
 }

@@ -1,6 +1,6 @@
 use super::hex8::{self, Corners, Shape};
 use super::{Class, Energy, Force, Formulation};
-use crate::physics::material::{Law, Viscosity};
+use crate::physics::material::{Hyperelastic, Viscosity};
 use crate::physics::scalar::Scalar;
 use crate::physics::tensor::{InPlane, Metric, Sym3, axpy, cofactor, combined, det, dot, scale};
 use std::ops::Range;
@@ -21,7 +21,7 @@ impl<const EXTRUDED: bool> Formulation for Q1p0Of<EXTRUDED> {
     const NUMBERS: Range<usize> = Class::<f64>::OF_POINTS;
 
     #[inline(always)]
-    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
+    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>>(
         law: &L,
         viscosity: &V,
         class: &G,
@@ -33,7 +33,7 @@ impl<const EXTRUDED: bool> Formulation for Q1p0Of<EXTRUDED> {
     }
 
     #[inline(always)]
-    fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
+    fn energy<S: Scalar, L: Hyperelastic, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
         let columns = hex8::gradients(x);
         let volume = hex8::volume(x);
         let mut energy = pointwise_energy::<S, L, G, false>(law, class, &columns);
@@ -55,8 +55,8 @@ struct LineSums<S> {
 #[inline(always)]
 pub(super) fn points<
     S: Scalar,
-    L: Law<S>,
-    V: Viscosity<S>,
+    L: Hyperelastic,
+    V: Viscosity,
     G: Shape<S>,
     const POINTWISE: bool,
     const EXTRUDED: bool,
@@ -115,7 +115,7 @@ pub(super) fn points<
 /// Point `low` (bits: the signs of xi and eta) of the half at the sign `half` of zeta, after those before it: adds to the lines, the
 /// smallest det F and the viscous power.
 #[inline(always)]
-fn point<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>, M: Metric<S>, const POINTWISE: bool>(
+fn point<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>, M: Metric<S>, const POINTWISE: bool>(
     (law, viscosity, class): (&L, &V, &G),
     metric: &M,
     (columns, rates, mean): (&hex8::LineColumns<S>, &hex8::LineColumns<S>, S),
@@ -147,7 +147,7 @@ fn point<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>, M: Metric<S>, const
     let det_a = dot(a[0], cof[0]);
     let j = det_a * class.inverse_det_j0(q);
     let k = hex8::invariants::<S, L, M>(&gram, metric);
-    let d = law.first_piola(k.i1, k.i2, j);
+    let d = law.derivatives(k.i1, k.i2, j);
     let pressure = (d.wj + if POINTWISE { law.dU(j) } else { mean }) * weight;
     let mut stress = [[zero; 3]; 3];
     if V::ON {
@@ -196,7 +196,7 @@ fn point<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>, M: Metric<S>, const
 }
 
 #[inline(always)]
-pub(super) fn pointwise_energy<S: Scalar, L: Law<S>, G: Shape<S>, const POINTWISE: bool>(
+pub(super) fn pointwise_energy<S: Scalar, L: Hyperelastic, G: Shape<S>, const POINTWISE: bool>(
     law: &L,
     class: &G,
     columns: &hex8::LineColumns<S>,

@@ -1,6 +1,6 @@
 use super::hex8::{self, Corners, HOURGLASS, Shape};
 use super::{Class, Energy, Force, Formulation};
-use crate::physics::material::{Law, Viscosity};
+use crate::physics::material::{Hyperelastic, Viscosity};
 use crate::physics::scalar::Scalar;
 use crate::physics::tensor::{
     Identity, Mat3, Vec3, add, axpy, cofactor, combined, det, dot, neg, scale, sub,
@@ -21,7 +21,7 @@ impl Formulation for UniformGradient {
     const NUMBERS: Range<usize> = Class::<f64>::OF_MEAN;
 
     #[inline(always)]
-    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
+    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>>(
         law: &L,
         viscosity: &V,
         class: &G,
@@ -34,7 +34,7 @@ impl Formulation for UniformGradient {
     }
 
     #[inline(always)]
-    fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
+    fn energy<S: Scalar, L: Hyperelastic, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
         let f = mean_gradient(class, x);
         let j = det(&f);
         let k = hex8::invariants::<S, L, _>(&hex8::gram(&f), &Identity);
@@ -60,7 +60,7 @@ impl Formulation for ExtrudedUniformGradient {
     const NUMBERS: Range<usize> = Class::<f64>::OF_MEAN;
 
     #[inline(always)]
-    fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
+    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>>(
         law: &L,
         viscosity: &V,
         class: &G,
@@ -73,7 +73,7 @@ impl Formulation for ExtrudedUniformGradient {
     }
 
     #[inline(always)]
-    fn energy<S: Scalar, L: Law<S>, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
+    fn energy<S: Scalar, L: Hyperelastic, G: Shape<S>>(law: &L, class: &G, x: &Corners<S>) -> Energy<S> {
         UniformGradient::energy(law, class, x)
     }
 }
@@ -90,7 +90,7 @@ fn fields<S: Scalar, G: Shape<S>>(class: &G, x: &Corners<S>) -> Fields<S> {
 /// From the fields of the positions, and of the velocities where there is viscosity: everything but the corner forces, the
 /// mean first Piola stress, and the hourglass forces.
 #[inline(always)]
-fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
+fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>>(
     law: &L,
     viscosity: &V,
     class: &G,
@@ -100,7 +100,7 @@ fn force<S: Scalar, L: Law<S>, V: Viscosity<S>, G: Shape<S>>(
     let cof = cofactor(&f);
     let j = dot(f[0], cof[0]);
     let k = hex8::invariants::<S, L, _>(&hex8::gram(&f), &Identity);
-    let d = law.first_piola(k.i1, k.i2, j);
+    let d = law.derivatives(k.i1, k.i2, j);
     let one = S::one();
     let s = hex8::second_piola::<S, L, _>(&k, &d, &Identity, one);
     let mut p = hex8::times_second_piola::<S, L>(&f, &s);
@@ -243,15 +243,12 @@ mod tests {
     use super::*;
     use crate::physics::element::{Class, ExtrudedFull, ExtrudedQ1p0, Full, Q1p0};
     use crate::physics::material::{Inviscid, KelvinVoigt, MooneyRivlin};
-    use crate::scene;
 
     /// All routines on plane figures extruded along eta, in any direction of space, deformed and moving at random.
     #[test]
     fn an_extruded_element_has_the_forces_of_any_element() {
-        let given = scene::Law::MooneyRivlin { g0: 4e7, g1: 1e6, g2: 3e5 };
-        let law = <MooneyRivlin<f64> as Law<f64>>::new(&given);
-        let still = <Inviscid as Viscosity<f64>>::new(0.0);
-        let moving = <KelvinVoigt<f64> as Viscosity<f64>>::new(20.0);
+        let law = MooneyRivlin { g0: 4e7, g1: 1e6, g2: 3e5 };
+        let (still, moving) = (Inviscid, KelvinVoigt { eta: 20.0 });
         let mut state = 7u64;
         let mut next = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

@@ -3,25 +3,20 @@
 //! The physics is written once over [`Scalar`]; a lane type makes the same source compute 2 to 16 elements. All of it
 //! must be inlined into one function with the right target feature (a call in between passes vectors through memory),
 //! so hot code has no closures and no `array::map`.
+//!
+//! Which lane types a processor can compute with is known when the program runs. [`Level`] is the proof that this one can: the
+//! types themselves have no name outside this folder, and [`InLanes`] work meets them only through a `Level`.
 
 mod array;
+mod level;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 pub use array::Array;
 pub(super) use array::{GUESS_F32, GUESS_F64};
 #[cfg(target_arch = "x86_64")]
-pub use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
-
-/// Lanes of [`Level::Portable`].
-#[cfg(target_arch = "x86_64")]
-pub type Portable64 = F64x2;
-#[cfg(target_arch = "x86_64")]
-pub type Portable32 = F32x4;
-#[cfg(not(target_arch = "x86_64"))]
-pub type Portable64 = Array<f64, 2>;
-#[cfg(not(target_arch = "x86_64"))]
-pub type Portable32 = Array<f32, 4>;
+pub use level::{Avx2, Avx512};
+pub use level::{InLanes, Instructions, Level, Portable, Vectors};
 
 use super::scalar::{Real, Scalar};
 
@@ -102,29 +97,4 @@ pub trait Lanes: Scalar {
     fn any_not_positive(self) -> bool;
     /// Lanes that are less than zero, the lowest bit that of lane 0.
     fn negative(self) -> u32;
-}
-
-/// Which instructions the machine has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
-pub enum Level {
-    Portable,
-    Avx2,
-    Avx512,
-}
-
-impl Level {
-    /// The best this machine has. Within the library's own unit tests portable lanes, which keep most kernels from being
-    /// compiled for them a second time: the others are tested from `tests/`.
-    pub fn detect() -> Level {
-        #[cfg(all(target_arch = "x86_64", not(test)))]
-        {
-            if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("fma") {
-                return Level::Avx512;
-            }
-            if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
-                return Level::Avx2;
-            }
-        }
-        Level::Portable
-    }
 }

@@ -19,63 +19,175 @@ pub use mooney_rivlin_eq4::MooneyRivlinEq4;
 pub use neo_hookean::NeoHookean;
 pub use viscosity::{Inviscid, KelvinVoigt, Viscosity};
 
+use super::parameters::{Fault, Parameter, Parameters};
 use super::scalar::Scalar;
-use crate::scene::Law as Choice;
+
+/// The laws there are: a line for each.
+macro_rules! for_every_law {
+    ($macro:ident) => {
+        $macro! { MooneyRivlin, NeoHookean, MooneyRivlinEq4 }
+    };
+}
 
 /// Partial derivatives of the pointwise energy [Pa].
 #[derive(Debug, Clone, Copy)]
 pub struct Derivatives<S> {
     /// dW/dI1
     pub w1: S,
-    /// dW/dI2; not read where `Law::HAS_I2` is false.
+    /// dW/dI2; not read where `Hyperelastic::HAS_I2` is false.
     pub w2: S,
     /// dW/dJ
     pub wj: S,
 }
 
-/// A hyperelastic law; parameters in Pa.
-pub trait Law<S: Scalar>: Copy + Send + Sync + 'static {
+/// A hyperelastic law: its parameters, and formulas for any scalar.
+pub trait Hyperelastic: Parameters {
     /// Whether the energy depends on I2 (its code is left out otherwise).
     const HAS_I2: bool;
-    fn new(choice: &Choice) -> Self;
-    /// Pointwise energy per reference volume.
-    fn psi(&self, i1: S, i2: S, j: S) -> S;
+
+    /// Initial shear modulus G [Pa].
+    fn shear_modulus(&self) -> f64;
+    /// Initial bulk modulus kappa [Pa].
+    fn bulk_modulus(&self) -> f64;
+    /// The simplest law of its kind with these moduli [Pa].
+    fn from_moduli(shear: f64, bulk: f64) -> Self;
+    /// A law of this kind with these moduli [Pa] in which every parameter matters: what tests and listings take.
+    fn example(shear: f64, bulk: f64) -> Self;
+    /// Which parameters to look at where a modulus is not positive: for the shear, and for the bulk modulus.
+    const KEYS_OF_MODULI: [&'static str; 2];
+
+    /// The cheapest law with the same energy.
+    fn simplified(self) -> Law
+    where
+        Law: From<Self>,
+    {
+        self.into()
+    }
+
+    /// Pointwise energy per reference volume [Pa].
+    fn psi<S: Scalar>(&self, i1: S, i2: S, j: S) -> S;
     /// Its derivatives.
-    fn first_piola(&self, i1: S, i2: S, j: S) -> Derivatives<S>;
-    /// Volumetric energy U(J) and its first two derivatives.
-    fn U(&self, j: S) -> S;
-    fn dU(&self, j: S) -> S;
-    fn ddU(&self, j: S) -> S;
+    fn derivatives<S: Scalar>(&self, i1: S, i2: S, j: S) -> Derivatives<S>;
+    /// Volumetric energy U(J) [Pa] and its first two derivatives.
+    fn U<S: Scalar>(&self, j: S) -> S;
+    fn dU<S: Scalar>(&self, j: S) -> S;
+    fn ddU<S: Scalar>(&self, j: S) -> S;
 }
 
-impl Choice {
-    /// Initial shear modulus G [Pa].
-    pub fn shear_modulus(&self) -> f64 {
-        match *self {
-            Choice::NeoHookean { g1, .. } => g1,
-            Choice::MooneyRivlin { g1, g2, .. } | Choice::MooneyRivlinEq4 { g1, g2, .. } => g1 + g2,
-        }
-    }
+/// What is done with a law once its type is known.
+pub trait WithLaw {
+    type Output;
+    fn with<L: Hyperelastic>(self, law: L) -> Self::Output
+    where
+        Law: From<L>;
+}
 
-    /// Initial bulk modulus kappa [Pa].
-    pub fn bulk_modulus(&self) -> f64 {
-        match *self {
-            Choice::NeoHookean { g0, .. } | Choice::MooneyRivlin { g0, .. } => g0,
-            Choice::MooneyRivlinEq4 { g0, g1, g2 } => g0 + 2.0 / 3.0 * (g1 + g2),
-        }
-    }
-
-    /// P-wave modulus kappa + 4/3 G of the unstressed material [Pa].
-    pub fn wave_modulus(&self) -> f64 {
-        self.bulk_modulus() + 4.0 / 3.0 * self.shear_modulus()
-    }
-
+/// A law before its parameters are known.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind {
     /// Name in a scene file.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Choice::NeoHookean { .. } => "neo-hookean",
-            Choice::MooneyRivlin { .. } => "mooney-rivlin",
-            Choice::MooneyRivlinEq4 { .. } => "mooney-rivlin-eq4",
+    pub name: &'static str,
+    pub parameters: &'static [Parameter],
+    /// The law from values in the order of the parameters; moduli are positive.
+    pub from_values: fn(&[f64]) -> Result<Law, Fault>,
+    /// The same from shear and bulk modulus [Pa].
+    pub from_moduli: fn(f64, f64) -> Result<Law, Fault>,
+    /// See [`Hyperelastic::example`].
+    pub example: fn(f64, f64) -> Law,
+}
+
+macro_rules! laws {
+    ($($law:ident),*) => {
+        /// Any hyperelastic law.
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        pub enum Law {
+            $($law($law)),*
+        }
+
+        $(impl From<$law> for Law {
+            fn from(law: $law) -> Law {
+                Law::$law(law)
+            }
+        })*
+
+        impl Law {
+            /// Every kind of law, the default of scenes first.
+            pub const KINDS: &'static [Kind] = &[$(kind::<$law>()),*];
+
+            /// Calls `work` with the law's own type: the one place where an enum becomes a type.
+            #[inline(always)]
+            pub fn visit<W: WithLaw>(&self, work: W) -> W::Output {
+                match self {
+                    $(Law::$law(law) => work.with(*law)),*
+                }
+            }
+        }
+    };
+}
+for_every_law!(laws);
+
+const fn kind<L: Hyperelastic>() -> Kind
+where
+    Law: From<L>,
+{
+    Kind {
+        name: L::NAME,
+        parameters: L::PARAMETERS,
+        from_values: |values| checked(L::from_values(values)),
+        from_moduli: |shear, bulk| checked(L::from_moduli(shear, bulk)),
+        example: |shear, bulk| L::example(shear, bulk).into(),
+    }
+}
+
+/// A law whose moduli are positive.
+fn checked<L: Hyperelastic>(law: L) -> Result<Law, Fault>
+where
+    Law: From<L>,
+{
+    let moduli = [("shear", law.shear_modulus()), ("bulk", law.bulk_modulus())];
+    for ((name, modulus), key) in moduli.into_iter().zip(L::KEYS_OF_MODULI) {
+        if modulus <= 0.0 {
+            return Err(Fault {
+                key,
+                problem: format!("the {name} modulus {modulus} Pa is not positive"),
+                remedy: format!("write a larger {key}"),
+            });
         }
     }
+    Ok(law.simplified())
+}
+
+/// Answers of a law that are plain values.
+macro_rules! answers {
+    ($($(#[$doc:meta])* $name:ident: $type:ty = |$law:ident: $kind:ident| $value:expr;)*) => {
+        impl Law {
+            $($(#[$doc])*
+            pub fn $name(&self) -> $type {
+                struct Answer;
+                impl WithLaw for Answer {
+                    type Output = $type;
+                    fn with<$kind: Hyperelastic>(self, $law: $kind) -> $type {
+                        $value
+                    }
+                }
+                self.visit(Answer)
+            })*
+        }
+    };
+}
+answers! {
+    /// Initial shear modulus G [Pa].
+    shear_modulus: f64 = |law: L| law.shear_modulus();
+    /// Initial bulk modulus kappa [Pa].
+    bulk_modulus: f64 = |law: L| law.bulk_modulus();
+    /// P-wave modulus kappa + 4/3 G of the unstressed material [Pa].
+    wave_modulus: f64 = |law: L| law.bulk_modulus() + 4.0 / 3.0 * law.shear_modulus();
+    /// Name in a scene file.
+    name: &'static str = |_law: L| L::NAME;
+    /// Whether the energy depends on I2.
+    has_i2: bool = |_law: L| L::HAS_I2;
+    /// Its parameters, and their values in that order.
+    parameters: (&'static [Parameter], Vec<f64>) = |law: L| (L::PARAMETERS, law.values());
+    /// Values by the shaders' names.
+    constants: Vec<(&'static str, f64)> = |law: L| law.constants();
 }

@@ -1,56 +1,82 @@
-use super::{Choice, Derivatives, Law, Scalar};
+use super::{Derivatives, Hyperelastic, Law, NeoHookean};
+use crate::physics::parameters::parameters;
+use crate::physics::scalar::Scalar;
 
-/// The paper's energy, eq. 5:
-///
-/// W = g1/2 (J^-2/3 I1 - 3) + g2/2 (J^-4/3 I2 - 3),  U = g0/2 (J - 1)^2,  G = g1 + g2, kappa = g0 (eq. 6).
-#[derive(Debug, Clone, Copy)]
-pub struct MooneyRivlin<S> {
-    g0: S,
-    g1: S,
-    g2: S,
+parameters! {
+    /// The paper's energy, eq. 5:
+    ///
+    /// W = g1/2 (J^-2/3 I1 - 3) + g2/2 (J^-4/3 I2 - 3),  U = g0/2 (J - 1)^2,  G = g1 + g2, kappa = g0 (eq. 6).
+    pub struct MooneyRivlin("mooney-rivlin", constants "") {
+        /// Bulk modulus.
+        g0 "g0": Stress, Any;
+        /// What I1 has of the shear modulus, 2 C10.
+        g1 "g1": Stress, Any;
+        /// What I2 has of the shear modulus, 2 C01.
+        g2 "g2": Stress, Any, or 0.0;
+    }
 }
 
-impl<S: Scalar> Law<S> for MooneyRivlin<S> {
+impl Hyperelastic for MooneyRivlin {
     const HAS_I2: bool = true;
+    const KEYS_OF_MODULI: [&'static str; 2] = ["g1", "g0"];
 
-    fn new(choice: &Choice) -> Self {
-        let Choice::MooneyRivlin { g0, g1, g2 } = *choice else { unreachable!("composed for {choice:?}") };
-        MooneyRivlin { g0: S::from_f64(g0), g1: S::from_f64(g1), g2: S::from_f64(g2) }
+    fn shear_modulus(&self) -> f64 {
+        self.g1 + self.g2
+    }
+
+    fn bulk_modulus(&self) -> f64 {
+        self.g0
+    }
+
+    fn from_moduli(shear: f64, bulk: f64) -> Self {
+        MooneyRivlin { g0: bulk, g1: shear, g2: 0.0 }
+    }
+
+    fn example(shear: f64, bulk: f64) -> Self {
+        MooneyRivlin { g0: bulk, g1: 0.7 * shear, g2: 0.3 * shear }
+    }
+
+    /// Without g2 its own, cheaper, code.
+    fn simplified(self) -> Law {
+        let MooneyRivlin { g0, g1, g2 } = self;
+        if g2 == 0.0 { NeoHookean { g0, g1 }.into() } else { self.into() }
     }
 
     #[inline(always)]
-    fn psi(&self, i1: S, i2: S, j: S) -> S {
+    fn psi<S: Scalar>(&self, i1: S, i2: S, j: S) -> S {
+        let (g1, g2) = (S::from_f64(self.g1), S::from_f64(self.g2));
         let (half, three) = (S::from_f64(0.5), S::from_f64(3.0));
         let r = j.recip_cbrt();
         let r2 = r * r;
-        self.g1 * half * (r2 * i1 - three) + self.g2 * half * (r2 * r2 * i2 - three)
+        g1 * half * (r2 * i1 - three) + g2 * half * (r2 * r2 * i2 - three)
     }
 
     #[inline(always)]
-    fn first_piola(&self, i1: S, i2: S, j: S) -> Derivatives<S> {
+    fn derivatives<S: Scalar>(&self, i1: S, i2: S, j: S) -> Derivatives<S> {
+        let (g1, g2) = (S::from_f64(self.g1), S::from_f64(self.g2));
         let half = S::from_f64(0.5);
         let r = j.recip_cbrt();
         let r2 = r * r;
-        let w1 = self.g1 * half * r2;
-        let w2 = self.g2 * half * r2 * r2;
+        let w1 = g1 * half * r2;
+        let w2 = g2 * half * r2 * r2;
         // -(g1/3 J^-2/3 I1 + 2 g2/3 J^-4/3 I2) / J
         let wj = -(w1 * i1 + (w2 + w2) * i2) * S::from_f64(2.0 / 3.0) * (r2 * r);
         Derivatives { w1, w2, wj }
     }
 
     #[inline(always)]
-    fn U(&self, j: S) -> S {
+    fn U<S: Scalar>(&self, j: S) -> S {
         let e = j - S::one();
-        self.g0 * S::from_f64(0.5) * e * e
+        S::from_f64(self.g0) * S::from_f64(0.5) * e * e
     }
 
     #[inline(always)]
-    fn dU(&self, j: S) -> S {
-        self.g0 * (j - S::one())
+    fn dU<S: Scalar>(&self, j: S) -> S {
+        S::from_f64(self.g0) * (j - S::one())
     }
 
     #[inline(always)]
-    fn ddU(&self, _j: S) -> S {
-        self.g0
+    fn ddU<S: Scalar>(&self, _j: S) -> S {
+        S::from_f64(self.g0)
     }
 }

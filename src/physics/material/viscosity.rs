@@ -2,31 +2,22 @@ use crate::physics::scalar::Scalar;
 use crate::physics::tensor::{Mat3, Vec3, combined, dot};
 
 /// A viscous stress added to any law, or nothing.
-pub trait Viscosity<S: Scalar>: Copy + Send + Sync + 'static {
+pub trait Viscosity: Copy + Send + Sync + 'static {
     /// Whether there is any: the velocities are not even read otherwise.
     const ON: bool;
-    fn new(eta: f64) -> Self;
-    /// eta [Pa s].
-    fn eta(&self) -> S;
     /// weight sigma_v and the power weight sigma_v : L det A, from A's rate, its cofactor and determinant; what sigma_v adds
     /// to the force matrix are the columns weight sigma_v cof(A)_d.
-    fn stress(&self, a_dot: &Mat3<S>, cof: &Mat3<S>, det: S, weight: S) -> (Mat3<S>, S);
+    fn stress<S: Scalar>(&self, a_dot: &Mat3<S>, cof: &Mat3<S>, det: S, weight: S) -> (Mat3<S>, S);
 }
 
 /// No viscosity.
 #[derive(Debug, Clone, Copy)]
 pub struct Inviscid;
 
-impl<S: Scalar> Viscosity<S> for Inviscid {
+impl Viscosity for Inviscid {
     const ON: bool = false;
-    fn new(_eta: f64) -> Self {
-        Inviscid
-    }
-    fn eta(&self) -> S {
-        S::zero()
-    }
     #[inline(always)]
-    fn stress(&self, _a_dot: &Mat3<S>, _cof: &Mat3<S>, _det: S, _weight: S) -> (Mat3<S>, S) {
+    fn stress<S: Scalar>(&self, _a_dot: &Mat3<S>, _cof: &Mat3<S>, _det: S, _weight: S) -> (Mat3<S>, S) {
         ([[S::zero(); 3]; 3], S::zero())
     }
 }
@@ -35,26 +26,19 @@ impl<S: Scalar> Viscosity<S> for Inviscid {
 ///
 /// In element coordinates L = (dA/dt) A^-1: the reference metric cancels. Objective, never generates power.
 #[derive(Debug, Clone, Copy)]
-pub struct KelvinVoigt<S> {
-    eta: S,
+pub struct KelvinVoigt {
+    /// Shear viscosity [Pa s].
+    pub eta: f64,
 }
 
-impl<S: Scalar> Viscosity<S> for KelvinVoigt<S> {
+impl Viscosity for KelvinVoigt {
     const ON: bool = true;
 
-    fn new(eta: f64) -> Self {
-        KelvinVoigt { eta: S::from_f64(eta) }
-    }
-
-    fn eta(&self) -> S {
-        self.eta
-    }
-
     #[inline(always)]
-    fn stress(&self, a_dot: &Mat3<S>, cof: &Mat3<S>, det: S, weight: S) -> (Mat3<S>, S) {
+    fn stress<S: Scalar>(&self, a_dot: &Mat3<S>, cof: &Mat3<S>, det: S, weight: S) -> (Mat3<S>, S) {
         // L det A, whose factor goes to eta.
         let l = [row(a_dot, cof, 0), row(a_dot, cof, 1), row(a_dot, cof, 2)];
-        let eta = self.eta * weight / det;
+        let eta = S::from_f64(self.eta) * weight / det;
         let trace = l[0][0] + l[1][1] + l[2][2];
         let mean = (trace + trace) * S::from_f64(1.0 / 3.0);
         let [xy, xz, yz] = [l[0][1] + l[1][0], l[0][2] + l[2][0], l[1][2] + l[2][1]];

@@ -1,6 +1,7 @@
 //! Runs at the default safety factor and at growing ones, until one fails.
 
 use crate::model::Model;
+use crate::physics::material::NeoHookean;
 use crate::report::bench::{GROUND, HELD, block, explicit, press, simulate_model, wheel};
 use crate::report::claim::short;
 use crate::run;
@@ -177,7 +178,8 @@ fn at_angle(degrees: f64) -> [f64; 2] {
 
 fn incompressible() -> Result<(Scene, Model)> {
     let mut scene = rolled(1.0, 20.0, 2.2e-3, [SPEED, 0.0], 70.0);
-    scene.body.law = Law::NeoHookean { g0: 1e4 * crate::report::bench::G, g1: crate::report::bench::G };
+    scene.body.law =
+        Law::NeoHookean(NeoHookean { g0: 1e4 * crate::report::bench::G, g1: crate::report::bench::G });
     scene.stages[1].duration = 2e-3;
     scene.stages[0].rim.z = Drive::Displacement { to: -2.2e-3, ramp: 5e-3 };
     meshed(scene)

@@ -4,6 +4,7 @@ use crate::Result;
 use crate::cpu::Precision;
 use crate::model::Model;
 use crate::output::{ContactScatter, Verdict};
+use crate::physics::material::NeoHookean;
 use crate::report::bench::{GROUND, HELD, Outcome, explicit, press, simulate_model, wheel};
 use crate::report::{Case, Claim};
 use crate::scene::*;
@@ -57,8 +58,10 @@ fn rolling(s: f64, k: f64, duration: f64, eta: f64) -> Scene {
         width: 0.0175 * s,
         elements: [24, 3, 3],
     };
-    let Law::NeoHookean { g0, g1 } = scene.body.law else { unreachable!("the wheel is neo-Hookean") };
-    scene.body.law = Law::NeoHookean { g0: k * g0, g1: k * g1 };
+    let Law::NeoHookean(NeoHookean { g0, g1 }) = scene.body.law else {
+        unreachable!("the wheel is neo-Hookean")
+    };
+    scene.body.law = Law::NeoHookean(NeoHookean { g0: k * g0, g1: k * g1 });
     scene.body.viscosity = (eta > 0.0).then_some(eta * k * time);
     let at = |to: f64| Drive::Velocity { to, ramp: 0.0 };
     let mut down = press(Drive::Displacement { to: -2.2e-3 * s, ramp: 0.02 * time });

@@ -10,6 +10,7 @@
 //! surface loads.
 
 use crate::Result;
+use crate::physics::material::NeoHookean;
 use crate::report::bench::{DENSITY, G, HELD, block, explicit, hold, simulate};
 use crate::report::{Case, Claim};
 use crate::scene::{Drive, Element, Law, Method, NodeSet, Rim, RimMotion, Stage};
@@ -33,7 +34,7 @@ fn modulus(ratio: f64, element: Element, [nx, nz]: [usize; 2]) -> Result<f64> {
     let depth = THICK / nz as f64;
     let mut scene = block([HALF, depth, THICK], [nx, 1, nz]);
     scene.body.element = element;
-    scene.body.law = Law::NeoHookean { g0: ratio * G, g1: G };
+    scene.body.law = Law::NeoHookean(NeoHookean { g0: ratio * G, g1: G });
     scene.holds = vec![hold(NodeSet::All, "y"), hold(NodeSet::XMin, "x"), hold(NodeSet::ZMin, "xyz")];
     scene.rim = Some(Rim { nodes: NodeSet::ZMax });
     // Slowest: shear of the layer, pi c_s / t and, where the bulk modulus lets the pressure spread, slower still.

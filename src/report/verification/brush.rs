@@ -5,6 +5,7 @@
 //! tan(alpha_m) = 3 mu Fz / C, C = 2 k a^2 w: Fy = mu Fz (3 s - 3 s^2 + s^3) up to s = 1, and mu Fz beyond.
 
 use crate::Result;
+use crate::physics::material::NeoHookean;
 use crate::report::bench::{G, GROUND, HELD, explicit, scene, simulate};
 use crate::report::{Case, Claim};
 use crate::scene::*;
@@ -33,7 +34,7 @@ fn rolled(tangent: f64) -> Result<[f64; 2]> {
         width: WIDTH,
         elements: [600, 2, 2],
     });
-    scene.body.law = Law::NeoHookean { g0: 2.0 / 3.0 * G, g1: G };
+    scene.body.law = Law::NeoHookean(NeoHookean { g0: 2.0 / 3.0 * G, g1: G });
     scene.body.element = Element::Full;
     scene.body.viscosity = Some(1.0);
     scene.rim = Some(Rim { nodes: NodeSet::Inner });

@@ -8,6 +8,7 @@ use crate::Result;
 use crate::cpu::element_forces;
 use crate::model::Model;
 use crate::physics::element::hex8;
+use crate::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
 use crate::report::bench::{G, KAPPA, RUBBER, block};
 use crate::report::{Case, Claim};
 use crate::scene::{Element, Law};
@@ -24,8 +25,8 @@ pub const CASE: Case = Case {
 
 const LAWS: [Law; 3] = [
     RUBBER,
-    Law::MooneyRivlin { g0: KAPPA, g1: 0.7 * G, g2: 0.3 * G },
-    Law::MooneyRivlinEq4 { g0: KAPPA, g1: 0.7 * G, g2: 0.3 * G },
+    Law::MooneyRivlin(MooneyRivlin { g0: KAPPA, g1: 0.7 * G, g2: 0.3 * G }),
+    Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0: KAPPA, g1: 0.7 * G, g2: 0.3 * G }),
 ];
 const ELEMENTS: [Element; 3] = [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
 const STRETCHES: [f64; 6] = [0.3, 0.5, 0.8, 1.25, 2.0, 3.0];
@@ -52,11 +53,11 @@ fn principal(law: &Law, l: [f64; 3]) -> [f64; 3] {
     let J: f64 = l.iter().product();
     let b = l.map(|l| l * l);
     match *law {
-        Law::MooneyRivlinEq4 { g0, g1, g2 } => {
+        Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0, g1, g2 }) => {
             b.map(|b| (g0 * (J - 1.0) + g1 * (b - 1.0) - g2 * (1.0 / b - 1.0)) / J)
         }
-        Law::NeoHookean { g0, g1 } => split(g0, g1, 0.0, J, b),
-        Law::MooneyRivlin { g0, g1, g2 } => split(g0, g1, g2, J, b),
+        Law::NeoHookean(NeoHookean { g0, g1 }) => split(g0, g1, 0.0, J, b),
+        Law::MooneyRivlin(MooneyRivlin { g0, g1, g2 }) => split(g0, g1, g2, J, b),
     }
 }
 
@@ -112,9 +113,9 @@ fn worst(law: &Law, element: Element) -> Result<[f64; 4]> {
 fn sheared(law: &Law, g: f64) -> (Matrix, Matrix) {
     let F = [[1.0, 0.0, 0.0], [g, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let (g1, g2, deviatoric) = match *law {
-        Law::NeoHookean { g1, .. } => (g1, 0.0, true),
-        Law::MooneyRivlin { g1, g2, .. } => (g1, g2, true),
-        Law::MooneyRivlinEq4 { g1, g2, .. } => (g1, g2, false),
+        Law::NeoHookean(NeoHookean { g1, .. }) => (g1, 0.0, true),
+        Law::MooneyRivlin(MooneyRivlin { g1, g2, .. }) => (g1, g2, true),
+        Law::MooneyRivlinEq4(MooneyRivlinEq4 { g1, g2, .. }) => (g1, g2, false),
     };
     let mean = if deviatoric { (g1 - g2) * g * g / 3.0 } else { 0.0 };
     let shear = (g1 + g2) * g;
@@ -144,7 +145,7 @@ fn run() -> Result<Vec<Claim>> {
 /// The textbook's incompressible solid, approached with kappa = 1e7 G.
 fn incompressible() -> Result<Vec<Claim>> {
     const REASON: &str = "kappa = 1e7 G leaves a volume strain of sigma / kappa, up to 4e-6 here";
-    let law = Law::NeoHookean { g0: 1e7 * G, g1: G };
+    let law = Law::NeoHookean(NeoHookean { g0: 1e7 * G, g1: G });
     let mut scene = block([1.0; 3], [1; 3]);
     scene.body.law = law;
     let model = Model::new(&scene)?;

@@ -1,6 +1,7 @@
 //! A thick-walled rubber cylinder in plane strain on a rigid plane, fine where it touches: the body of the line-contact
 //! cases.
 
+use crate::physics::material::NeoHookean;
 use crate::report::bench::{G, GROUND, HELD, explicit, hold, scene};
 use crate::scene::*;
 
@@ -8,7 +9,7 @@ use crate::scene::*;
 pub const RADIUS: f64 = 0.039;
 pub const INNER: f64 = 0.027;
 /// kappa / G = 100 where friction matters: Dundurs' constant against a rigid plane is (1 - 2 nu) / (2 (1 - nu)) = 0.01.
-pub const STIFF: Law = Law::NeoHookean { g0: 100.0 * G, g1: G };
+pub const STIFF: Law = Law::NeoHookean(NeoHookean { g0: 100.0 * G, g1: G });
 /// Edge of the elements that touch [m].
 pub const EDGE: f64 = 1.5e-4;
 /// Axial length of the slice: one element [m].

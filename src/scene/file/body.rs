@@ -1,6 +1,9 @@
 //! `[body]`: mesh, material, element.
 
+use super::parameters;
 use crate::error::Result;
+use crate::physics::material::Kind;
+use crate::physics::parameters::Parameter;
 use crate::scene::reader::{Bound, Item, Later, Table};
 use crate::scene::units::{ANGLE, ANGULAR_VELOCITY, DENSITY, LENGTH, PRESSURE, VELOCITY, VISCOSITY};
 use crate::scene::{Body, Element, Grading, Law, Lumping, MeshSpec};
@@ -150,76 +153,56 @@ fn elements(table: &Table, example: &str, first: usize) -> Result<[usize; 3]> {
     }
 }
 
+const MODULI: [&str; 2] = ["shear_modulus", "bulk_modulus"];
+
 /// Law and viscosity.
 fn material(table: &Table) -> Result<(Law, Option<f64>)> {
-    table.only(&["law", "shear_modulus", "bulk_modulus", "g0", "g1", "g2", "viscosity"], &[])?;
-    let names =
-        [("mooney-rivlin", Form::Split), ("neo-hookean", Form::Neo), ("mooney-rivlin-eq4", Form::Eq4)];
-    let form = table.get("law").map_or(Ok(Form::Split), |item| item.choice(&names, &[]))?;
-    let [g0, g1, g2] = if table.get("g0").or(table.get("g1")).or(table.get("g2")).is_some() {
-        constants(table, form)?
-    } else {
-        moduli(table, form)?
-    };
-    let law = match form {
-        Form::Eq4 => Law::MooneyRivlinEq4 { g0, g1, g2 },
-        _ if g2 == 0.0 => Law::NeoHookean { g0, g1 },
-        _ => Law::MooneyRivlin { g0, g1, g2 },
+    let mut keys = [&["law", "viscosity"], &MODULI[..]].concat();
+    keys.extend(Law::KINDS.iter().flat_map(|kind| kind.parameters).map(|p| p.key));
+    keys.dedup();
+    table.only(&keys, &[])?;
+    let names: Vec<_> = Law::KINDS.iter().map(|kind| (kind.name, kind)).collect();
+    let kind = table.get("law").map_or(Ok(&Law::KINDS[0]), |item| item.choice(&names, &[]))?;
+    refuse_foreign(table, kind)?;
+    let constant = |p: &&Parameter| !MODULI.contains(&p.key) && table.get(p.key).is_some();
+    let law = match kind.parameters.iter().find(constant) {
+        Some(given) => constants(table, kind, given)?,
+        None => moduli(table, kind)?,
     };
     let eta = table.quantity_or("viscosity", 0.0, &VISCOSITY, Bound::NotNegative)?;
     Ok((law, (eta > 0.0).then_some(eta)))
 }
 
-/// How a law's constants relate to the moduli.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Form {
-    /// kappa = g0, G = g1 + g2: volumetric and isochoric parts are split.
-    Split,
-    /// The same without g2.
-    Neo,
-    /// kappa = g0 + 2/3 G: the undeviatored terms of eq. 4 resist volume change too.
-    Eq4,
-}
-
-impl Form {
-    /// kappa - g0 for a shear modulus.
-    fn bulk_of_shear(self, G: f64) -> f64 {
-        if self == Form::Eq4 { 2.0 / 3.0 * G } else { 0.0 }
-    }
-}
-
-/// g0, g1, g2 from G and kappa (g2 = 0).
-fn moduli(table: &Table, form: Form) -> Result<[f64; 3]> {
-    let G = table.quantity("shear_modulus", &PRESSURE, Bound::Positive)?;
-    let kappa = table.quantity("bulk_modulus", &PRESSURE, Bound::Positive)?;
-    Ok([kappa - form.bulk_of_shear(G), G, 0.0])
-}
-
-/// g0, g1, g2 as given; the moduli they amount to must be positive.
-fn constants(table: &Table, form: Form) -> Result<[f64; 3]> {
-    for key in ["shear_modulus", "bulk_modulus"] {
-        if let Some(item) = table.get(key) {
-            return Err(item.error("given besides g0, g1, g2", "write either the moduli or g0, g1, g2"));
+/// Refuses what only other laws have.
+fn refuse_foreign(table: &Table, kind: &Kind) -> Result<()> {
+    let has = |kind: &Kind, key: &str| MODULI.contains(&key) || kind.parameters.iter().any(|p| p.key == key);
+    for other in Law::KINDS {
+        for key in other.parameters.iter().map(|p| p.key).filter(|key| !has(kind, key)) {
+            if let Some(item) = table.get(key) {
+                return Err(item.error(
+                    format!("{} has no {key}", kind.name),
+                    format!("remove the key, or write law = {:?}", other.name),
+                ));
+            }
         }
     }
-    let g0 = table.quantity("g0", &PRESSURE, Bound::Any)?;
-    let g1 = table.quantity("g1", &PRESSURE, Bound::Any)?;
-    let g2 = table.quantity_or("g2", 0.0, &PRESSURE, Bound::Any)?;
-    if let Some(item) = table.get("g2").filter(|_| form == Form::Neo && g2 != 0.0) {
-        return Err(item.error("neo-hookean has no g2", "remove the key, or write law = \"mooney-rivlin\""));
+    Ok(())
+}
+
+/// The law from shear and bulk modulus.
+fn moduli(table: &Table, kind: &Kind) -> Result<Law> {
+    let [shear, bulk] = MODULI.map(|key| table.quantity(key, &PRESSURE, Bound::Positive));
+    (kind.from_moduli)(shear?, bulk?).map_err(|fault| parameters::error(table, fault))
+}
+
+/// The law from its own constants, of which `given` is one.
+fn constants(table: &Table, kind: &Kind, given: &Parameter) -> Result<Law> {
+    let own = |key: &str| kind.parameters.iter().any(|p| p.key == key);
+    if let Some(item) = MODULI.iter().filter(|key| !own(key)).find_map(|key| table.get(key)) {
+        let all: Vec<_> = kind.parameters.iter().map(|p| p.key).collect();
+        let remedy = format!("write either shear_modulus and bulk_modulus or {}", all.join(", "));
+        return Err(item.error(format!("given besides {}", given.key), remedy));
     }
-    let G = g1 + g2;
-    if G <= 0.0 {
-        return Err(table.at("g1").error(
-            format!("the shear modulus g1 + g2 = {G} Pa is not positive"),
-            "write g1 and g2 with a positive sum",
-        ));
-    }
-    let kappa = g0 + form.bulk_of_shear(G);
-    if kappa <= 0.0 {
-        return Err(table
-            .at("g0")
-            .error(format!("the bulk modulus {kappa} Pa is not positive"), "write a larger g0"));
-    }
-    Ok([g0, g1, g2])
+    (kind.from_values)(&parameters::read(table, kind.parameters)?)
+        .map_err(|fault| parameters::error(table, fault))
 }

@@ -126,6 +126,7 @@
 mod body;
 mod implicit;
 mod output;
+mod parameters;
 mod rim_motion;
 mod stage;
 mod world;
