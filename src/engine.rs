@@ -74,8 +74,11 @@ pub struct SurfaceSum {
     pub v: [f64; 3],
     /// Sum of contact force times mean step [N s].
     pub impulse: [f64; 3],
-    /// Work of the tangential force on the node [J]; what friction dissipates is this less impulse times road velocity.
+    /// Work of the tangential force on the node [J].
     pub friction_work: f64,
+    /// Work that the road's motion puts in: force times velocity of the road's surface at the node, times mean step [J]. What
+    /// friction dissipates is this less the friction work.
+    pub road_work: f64,
     /// Steps in contact, and those of them that stick.
     pub touching: u32,
     pub sticking: u32,
@@ -133,6 +136,7 @@ impl Window {
         let node = |(sum, node): (&SurfaceSum, &SurfaceSum)| SurfaceSum {
             impulse: std::array::from_fn(|d| sum.impulse[d] + node.impulse[d]),
             friction_work: sum.friction_work + node.friction_work,
+            road_work: sum.road_work + node.road_work,
             touching: sum.touching + node.touching,
             sticking: sum.sticking + node.sticking,
             ..*node

@@ -57,6 +57,9 @@ pub struct Sample {
     /// Rim work and body-force work [J].
     pub external_work_J: f64,
     pub friction_work_J: f64,
+    /// Work that the road's motion puts in: its force on the body times the velocity of its surface [J]. Friction dissipates this
+    /// less the friction work.
+    pub road_work_J: f64,
     /// Work of the normal contact forces: impact loss [J].
     pub contact_work_J: f64,
     pub damping_work_J: f64,
@@ -84,7 +87,7 @@ impl Sample {
         time_s road_fx_N road_fy_N road_fz_N road_fx_std_N road_fy_std_N road_fz_std_N rim_fx_N rim_fy_N
         rim_fz_N rim_mx_Nm rim_my_Nm rim_mz_Nm axle_x_m axle_y_m axle_z_m rim_angle_rad steer_rad camber_rad
         contact_area_m2 contact_nodes sticking_share changing_share footprint_length_m footprint_width_m peak_pressure_Pa
-        kinetic_J strain_J hourglass_J external_work_J friction_work_J contact_work_J damping_work_J
+        kinetic_J strain_J hourglass_J external_work_J friction_work_J road_work_J contact_work_J damping_work_J
         viscous_work_J balance_error_J stored_balance_error_J min_jacobian dt_s
     );
 }

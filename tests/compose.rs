@@ -11,6 +11,7 @@ use std::sync::LazyLock;
 use hexroll::gpu::compose::{Choice, Kernel, PARTS, RimKind};
 use hexroll::gpu::layout::{self, Real, Wgsl};
 use hexroll::gpu::{Counts, Precision};
+use hexroll::physics::friction::{Coulomb, PressureVelocity, Stribeck, Viscous};
 use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
 use hexroll::scene::{Element, Friction, Law};
 use naga::{ArraySize, Block, Expression, Function, GlobalVariable, Handle, Module, Statement, TypeInner};
@@ -34,10 +35,20 @@ const KERNELS: [Kernel; 12] = [
 const ROADS: [(bool, Option<Friction>, bool); 6] = [
     (false, None, false),
     (true, None, false),
-    (true, Some(Friction::Coulomb { mu: 1.0 }), false),
-    (true, Some(Friction::Viscous { slope: 1.0 }), true),
-    (true, Some(Friction::Stribeck { still: 1.0, kinetic: 1.0, speed: 1.0, slope: 1.0 }), false),
-    (true, Some(Friction::PressureVelocity { a: 1.0, b: 1.0, pressure: 1.0, c: 1.0, speed: 1.0 }), true),
+    (true, Some(Friction::Coulomb(Coulomb { mu: 1.0 })), false),
+    (true, Some(Friction::Viscous(Viscous { slope: 1.0 })), true),
+    (true, Some(Friction::Stribeck(Stribeck { still: 1.0, kinetic: 1.0, speed: 1.0, slope: 1.0 })), false),
+    (
+        true,
+        Some(Friction::PressureVelocity(PressureVelocity {
+            a: 1.0,
+            b: 1.0,
+            pressure: 1.0,
+            c: 1.0,
+            speed: 1.0,
+        })),
+        true,
+    ),
 ];
 
 fn choices() -> Vec<Choice> {
@@ -326,13 +337,13 @@ const FEATURES: [Feature; 11] = [
         name: "Coulomb friction",
         files: &["friction/coulomb"],
         instead: &["friction/viscous"],
-        chosen: |c| matches!(c.friction, Some(Friction::Coulomb { .. })),
+        chosen: |c| matches!(c.friction, Some(Friction::Coulomb(_))),
     },
     Feature {
         name: "Stribeck friction",
         files: &["friction/stribeck"],
         instead: &["friction/viscous", "friction/pressure_velocity"],
-        chosen: |c| matches!(c.friction, Some(Friction::Stribeck { .. })),
+        chosen: |c| matches!(c.friction, Some(Friction::Stribeck(_))),
     },
     Feature {
         name: "friction by pressure",

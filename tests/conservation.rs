@@ -5,6 +5,7 @@ mod common;
 use common::{Driver, ELEMENTS, GROUND, block, wheel};
 use hexroll::engine::{StageSetup, Window, Works};
 use hexroll::model::Model;
+use hexroll::physics::friction::Coulomb;
 use hexroll::physics::material::MooneyRivlin;
 use hexroll::physics::tensor::{Vec3, add, cross, scale, sub};
 use hexroll::run::stability;
@@ -237,7 +238,7 @@ fn the_ledger_of_a_run_closes() {
         scene.body.velocity = [1.0, 0.3, -0.5];
         scene.body.viscosity = Some(20.0);
         scene.road = Some(GROUND);
-        scene.friction = Some(Friction::Coulomb { mu: 0.5 });
+        scene.friction = Some(Friction::Coulomb(Coulomb { mu: 0.5 }));
         scene.gravity = [0.0, 0.0, gravity];
         scene.safety = 0.45;
         scene.stages[0].duration = 0.03;

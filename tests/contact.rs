@@ -5,10 +5,12 @@ mod common;
 use common::{GROUND, Outcome, Random, block, close, explicit, run, try_run};
 use hexroll::cpu::Precision;
 use hexroll::model::Model;
-use hexroll::physics::contact;
+use hexroll::physics::contact::{self, Node};
+use hexroll::physics::friction::Coulomb;
 use hexroll::physics::friction::Coulomb;
 use hexroll::physics::node::StepSize;
-use hexroll::physics::road::{Plane, Road as _};
+use hexroll::physics::road::Plane;
+use hexroll::physics::road::Plane;
 use hexroll::physics::tensor::{axpy, dot, scale, sub};
 use hexroll::record::ContactState;
 use hexroll::run::stability;
@@ -22,8 +24,8 @@ const GRAVITY: f64 = 9.81;
 fn a_node_lands_sticks_or_slips_by_the_law() {
     let (normal, mass, mu) = ([0.6, 0.0, 0.8], 2e-3, 0.7);
     let surface = [0.8, 0.5, -0.6];
-    let road = Plane::<f64>::new([0.1, 0.0, 0.02], normal, surface, [0.0; 3]);
-    let law = Coulomb { mu };
+    let road = Road::Plane(Plane { point: [0.1, 0.0, 0.02], normal, velocity: surface });
+    let law = Coulomb { mu }.into();
     let step = StepSize { dt: 1.1e-5, dtm: 1e-5 };
     let mut random = Random::new(21);
     let (mut free, mut stuck, mut slipped) = (0, 0, 0);
@@ -34,7 +36,9 @@ fn a_node_lands_sticks_or_slips_by_the_law() {
         let x = axpy(normal, height, axpy([1.0; 3], 0.0, [0.1 + tangent[0], tangent[1], 0.02 + tangent[2]]));
         let v = axpy(surface, 1.0, scale(random.vector(), 1.5));
         let gap = road.gap(axpy(v, step.dt, x));
-        let Some(t) = contact::project(&road, Some(&law), mass, step, x, v) else {
+        let node = Node { inertia: mass, x, v, v_star: v };
+        let no_area = || unreachable!("Coulomb's law asks for no area");
+        let Some(t) = contact::project(&road, Some(&law), no_area, step, &node) else {
             assert!(gap >= 0.0, "a node {gap} m above the road is left alone");
             free += 1;
             continue;
@@ -63,8 +67,7 @@ fn a_node_lands_sticks_or_slips_by_the_law() {
             close("cosine against the slip", against, 1.0, 1e-9);
             slipped += 1;
         }
-        let smooth =
-            contact::project::<f64, _, Coulomb<f64>>(&road, None, mass, step, x, v).expect("the same touch");
+        let smooth = contact::project(&road, None, no_area, step, &node).expect("the same touch");
         assert_eq!(smooth.tangential_force, [0.0; 3], "no friction law, no tangential force");
         assert_eq!(smooth.normal_force, t.normal_force);
     }
@@ -80,7 +83,7 @@ fn a_bouncing_block_never_gains_energy() {
     scene.body.velocity = [0.5, 0.0, -3.0];
     scene.body.angular_velocity = [40.0, 60.0, 0.0];
     scene.road = Some(GROUND);
-    scene.friction = Some(Friction::Coulomb { mu: 0.3 });
+    scene.friction = Some(Friction::Coulomb(Coulomb { mu: 0.3 }));
     scene.output.sample = 1e-4;
     scene.stages[0].duration = 0.02;
     let outcome = run(&scene);
@@ -121,7 +124,7 @@ const ANGLE: f64 = std::f64::consts::FRAC_PI_6;
 fn slope(size: f64, g: f64, mu: f64, settle: Method, steps: f64) -> Scene {
     let mut scene = block([size, 0.5 * size, 0.5 * size], [6, 3, 3]);
     let (sin, cos) = ANGLE.sin_cos();
-    scene.friction = Some(Friction::Coulomb { mu });
+    scene.friction = Some(Friction::Coulomb(Coulomb { mu }));
     scene.road = Some(GROUND);
     scene.gravity = [g * sin, 0.0, -g * cos];
     let dt = 0.9 * stability::element_bound(&Model::new(&scene).unwrap()).unwrap();
@@ -232,8 +235,9 @@ fn a_moving_road_drags() {
     let (mu, speed) = (0.5, 0.2);
     let mut scene = block([0.02, 0.02, 0.01], [2, 2, 1]);
     scene.body.viscosity = Some(100.0);
-    scene.road = Some(Road::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [speed, 0.0, 0.0] });
-    scene.friction = Some(Friction::Coulomb { mu });
+    scene.road =
+        Some(Road::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [speed, 0.0, 0.0] }));
+    scene.friction = Some(Friction::Coulomb(Coulomb { mu }));
     scene.gravity = [0.0, 0.0, -GRAVITY];
     // Up to speed after v / (mu g) = 41 ms.
     scene.stages[0].duration = 0.08;

@@ -3,34 +3,33 @@
 mod common;
 
 use common::{Random, close};
-use hexroll::physics::contact::{self, Touch};
-use hexroll::physics::friction::AnyFriction;
+use hexroll::physics::contact::{self, Node, Touch};
+use hexroll::physics::friction::{Coulomb, PressureVelocity, Sliding, Stribeck, Viscous};
 use hexroll::physics::node::StepSize;
-use hexroll::physics::road::Plane;
 use hexroll::physics::tensor::dot;
-use hexroll::scene::Friction;
+use hexroll::scene::{Friction, GROUND};
 
-const STRIBECK: Friction = Friction::Stribeck { still: 1.2, kinetic: 0.7, speed: 0.1, slope: 0.05 };
-const FIT: Friction = Friction::PressureVelocity { a: 0.4, b: 0.5, pressure: 2e5, c: 0.3, speed: 0.2 };
-const VISCOUS: Friction = Friction::Viscous { slope: 0.8 };
+const STRIBECK: Friction = Friction::Stribeck(Stribeck { still: 1.2, kinetic: 0.7, speed: 0.1, slope: 0.05 });
+const FIT: Friction =
+    Friction::PressureVelocity(PressureVelocity { a: 0.4, b: 0.5, pressure: 2e5, c: 0.3, speed: 0.2 });
+const VISCOUS: Friction = Friction::Viscous(Viscous { slope: 0.8 });
 
 /// The curve at pressure p and speed v, as the documentation of scene files writes it.
 fn expected(law: &Friction, p: f64, v: f64) -> f64 {
     match *law {
-        Friction::Coulomb { mu } => mu,
-        Friction::Viscous { slope } => slope * v,
-        Friction::Stribeck { still, kinetic, speed, slope } => {
+        Friction::Coulomb(Coulomb { mu }) => mu,
+        Friction::Viscous(Viscous { slope }) => slope * v,
+        Friction::Stribeck(Stribeck { still, kinetic, speed, slope }) => {
             kinetic + (still - kinetic) * (-(v / speed).powi(2)).exp() + slope * v
         }
-        Friction::PressureVelocity { a, b, pressure, c, speed } => {
+        Friction::PressureVelocity(PressureVelocity { a, b, pressure, c, speed }) => {
             a + b * (-p / pressure).exp() + c * (-v / speed).exp()
         }
     }
 }
 
-fn coefficient(law: &Friction, p: f64, v: f64) -> f64 {
-    let AnyFriction::Law(law) = AnyFriction::<f64>::new(law) else { panic!("a law in pressure and speed") };
-    law.coefficient(p, v)
+fn coefficient(law: &Friction, pressure: f64, slip_speed: f64) -> f64 {
+    law.coefficient(Sliding { pressure, slip_speed })
 }
 
 #[test]
@@ -55,9 +54,8 @@ const AREA: f64 = 4e-6;
 
 /// A node on a resting road that would have velocity `v` after the step and had `before`, its area known.
 fn touch_from(law: &Friction, before: [f64; 3], v: [f64; 3]) -> Touch<f64> {
-    let road = Plane::<f64>::new([0.0; 3], [0.0, 0.0, 1.0], [0.0; 3], [0.0; 3]);
-    let law = AnyFriction::new(law);
-    contact::project_any(&road, Some(&law), || 1.0 / AREA, MASS, STEP, [0.0; 3], before, v).expect("it falls")
+    let node = Node { inertia: MASS, x: [0.0; 3], v: before, v_star: v };
+    contact::project(&GROUND, Some(law), || 1.0 / AREA, STEP, &node).expect("it falls")
 }
 
 fn touch(law: &Friction, v: [f64; 3]) -> Touch<f64> {
@@ -98,7 +96,7 @@ fn friction_is_taken_at_the_speed_that_remains() {
 #[test]
 fn a_steep_viscous_film_is_solved_exactly() {
     for slope in [0.1, 10.0, 1e4] {
-        let t = touch(&Friction::Viscous { slope }, [0.3, 0.0, -0.02]);
+        let t = touch(&Friction::Viscous(Viscous { slope }), [0.3, 0.0, -0.02]);
         close("speed that remains", t.v[0], 0.3 / (1.0 + slope * 0.02), 1e-12);
         assert!(!t.sticks);
     }
@@ -137,21 +135,9 @@ fn rest_does_not_catch_what_slides() {
 /// The same load on a smaller area slides with less friction, by the law's own factor.
 #[test]
 fn pressure_is_force_over_area() {
-    let road = Plane::<f64>::new([0.0; 3], [0.0, 0.0, 1.0], [0.0; 3], [0.0; 3]);
-    let law = AnyFriction::new(&FIT);
     for area in [1e-6, 1e-5, 1e-4] {
-        let inverse = || 1.0 / area;
-        let t = contact::project_any(
-            &road,
-            Some(&law),
-            inverse,
-            MASS,
-            STEP,
-            [0.0; 3],
-            [3.0, 0.0, 0.0],
-            [3.0, 0.0, -0.01],
-        )
-        .unwrap();
+        let node = Node { inertia: MASS, x: [0.0; 3], v: [3.0, 0.0, 0.0], v_star: [3.0, 0.0, -0.01] };
+        let t = contact::project(&GROUND, Some(&FIT), || 1.0 / area, STEP, &node).unwrap();
         let push = t.normal_force[2];
         let mu = 0.4 + 0.5 * (-push / area / 2e5f64).exp() + 0.3 * (-t.v[0] / 0.2).exp();
         close("mu", -t.tangential_force[0] / push, mu, 1e-9);

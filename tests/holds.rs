@@ -7,6 +7,7 @@ mod common;
 use common::{Driver, GROUND, block, close, largest, try_run};
 use hexroll::cpu::Precision;
 use hexroll::model::Model;
+use hexroll::physics::friction::Coulomb;
 use hexroll::physics::tensor::sub;
 use hexroll::run::stability;
 use hexroll::scene::{Friction, Hold, NodeSet, Scene};
@@ -57,7 +58,7 @@ fn sliding() -> Scene {
     scene.body.velocity = [0.5, 0.7, -0.4];
     scene.body.viscosity = Some(20.0);
     scene.road = Some(GROUND);
-    scene.friction = Some(Friction::Coulomb { mu: 0.6 });
+    scene.friction = Some(Friction::Coulomb(Coulomb { mu: 0.6 }));
     scene.gravity = [0.0, 0.0, -9.81];
     scene.holds = vec![hold(NodeSet::All, [false, true, false])];
     scene.stages[0].duration = 0.01;

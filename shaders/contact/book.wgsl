@@ -16,7 +16,7 @@ fn book_contact(role: u32, moved: Moved, way: vec3r) -> vec4r {
         return vec4r(vec3r(0.0), changed);
     }
     let force = moved.normal_force + moved.tangential_force;
-    surface_sums[k].impulse += vec4r(step.dtm * force, 0.0);
+    surface_sums[k].impulse += step.dtm * vec4r(force, road_work(force, moved.x));
     surface_sums[k].normal_work += dot(moved.normal_force, way);
     surface_sums[k].friction_work += dot(moved.tangential_force, way);
     surface_sums[k].touching += 1u;

@@ -26,3 +26,8 @@ fn rub(role: u32, x: vec3r, v: vec3r, n: vec3r, push: real, per_step: real, pres
     let slowed = min(friction_coefficient(pressure, remains) * push, speed);
     return Rubbed(pressed - (slowed / speed) * slip, 1u);
 }
+
+// Power that the road's motion puts into a node at x [W].
+fn road_work(force: vec3r, x: vec3r) -> real {
+    return dot(force, road_velocity(x));
+}

@@ -1,7 +1,7 @@
 // |fT| <= mu |fN| (eq. 10); twin of src/physics/friction/coulomb.rs.
 
-override mu: real;
+override friction_mu: real;
 
-fn friction_coefficient(normal_force: real, slip_speed: real) -> real {
-    return mu;
+fn friction_coefficient(pressure: real, slip_speed: real) -> real {
+    return friction_mu;
 }

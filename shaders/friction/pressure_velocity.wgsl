@@ -2,11 +2,11 @@
 
 override friction_a: real;
 override friction_b: real;
-override friction_inverse_pressure: real;
+override friction_pressure: real;
 override friction_c: real;
-override friction_inverse_speed: real;
+override friction_speed: real;
 
 fn friction_coefficient(pressure: real, speed: real) -> real {
-    return friction_a + friction_b * exponential(-pressure * friction_inverse_pressure)
-        + friction_c * exponential(-speed * friction_inverse_speed);
+    return friction_a + friction_b * exponential(-pressure / friction_pressure)
+        + friction_c * exponential(-speed / friction_speed);
 }

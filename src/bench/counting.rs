@@ -151,6 +151,11 @@ impl<T: Real> Scalar for Counted<T> {
         recip_cbrt_from(Counted(self.0.recip_cbrt_guess()), self, T::SINGLE)
     }
 
+    fn sqrt(self) -> Self {
+        tally(DIV);
+        Counted(self.0.sqrt())
+    }
+
     fn ln(self) -> Self {
         Counted(self.0.ln())
     }

@@ -13,7 +13,6 @@ use crate::engine::{Engine, EngineInfo, StageSetup, State, Step, StepContact, Su
 use crate::error::{Error, Result};
 use crate::model::mesh::Mesh;
 use crate::model::{Model, frame};
-use crate::physics::friction::AnyFriction;
 use crate::physics::lanes::{Level, WIDEST};
 use crate::physics::rim::Coordinates;
 use crate::physics::scalar::Real;
@@ -43,7 +42,7 @@ pub struct CpuEngine<T> {
     pub(super) rim_nodes: Vec<(usize, usize)>,
     pub(super) shares: Vec<Share>,
     pub(super) road: Option<Road>,
-    pub(super) friction: Option<AnyFriction<T>>,
+    pub(super) friction: Option<Friction>,
     pub(super) gravity: Vec3<T>,
     /// For the areas of surface nodes, where friction looks at pressure.
     pub(super) mesh: Option<Mesh>,
@@ -125,7 +124,7 @@ impl<T: Real> CpuEngine<T> {
             place: layout.place,
             shares,
             road: scene.road,
-            friction: scene.friction.as_ref().map(AnyFriction::new),
+            friction: scene.friction,
             mesh: scene.friction.filter(Friction::needs_area).map(|_| mesh.clone()),
             gravity: vec3(scene.gravity),
             setup: StageSetup::default(),

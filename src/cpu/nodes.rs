@@ -5,10 +5,10 @@ use super::layout::{Line, NodeBatch};
 use super::state::{Aligned, Field, View};
 use crate::engine::SurfaceSum;
 use crate::physics::contact::{self, Touch};
-use crate::physics::friction::AnyFriction;
+use crate::physics::friction::Friction;
 use crate::physics::lanes::{InLanes, Instructions, Lanes, Level, WIDEST};
 use crate::physics::node::{self, Loads, Prediction, StepSize};
-use crate::physics::road::Plane;
+use crate::physics::road::Road;
 use crate::physics::scalar::{Real, Scalar};
 use crate::physics::tensor::{Vec3, add, axpy, combined, cross, dot, scale, sub};
 
@@ -36,8 +36,10 @@ pub struct Conditions<T> {
     pub step: StepSize<T>,
     pub loads: Loads<T>,
     pub prediction: Prediction<T>,
-    pub road: Option<Plane<T>>,
-    pub friction: Option<AnyFriction<T>>,
+    /// Seen from the engine's frame, and whether it moves.
+    pub road: Option<Road>,
+    pub road_moves: bool,
+    pub friction: Option<Friction>,
     /// Axle at the end of the step in the engine's frame and its mean velocity, rotation at the end and its mean rate
     /// (columns), axle at the start.
     pub axle: Vec3<T>,
@@ -364,7 +366,7 @@ struct Unpacked<T> {
 unsafe fn touch<N: Lanes, const PROBE: bool>(
     nodes: &Nodes<N::Real>,
     c: &Conditions<N::Real>,
-    road: &Plane<N::Real>,
+    road: &Road,
     (at, batch): (usize, &NodeBatch),
     x: Vec3<N>,
     v: Vec3<N>,
@@ -373,7 +375,7 @@ unsafe fn touch<N: Lanes, const PROBE: bool>(
     sums: &mut LineSums,
     contact: &mut LineContact,
 ) -> Moved<N> {
-    let inside = road.gap_in_lanes(free.x).negative() & batch.surface;
+    let inside = road.gap(free.x).negative() & batch.surface;
     if inside == 0 {
         return free;
     }
@@ -403,7 +405,7 @@ unsafe fn touch<N: Lanes, const PROBE: bool>(
 unsafe fn touch_each<T: Real, const PROBE: bool>(
     nodes: &Nodes<T>,
     c: &Conditions<T>,
-    road: &Plane<T>,
+    road: &Road,
     (at, boundary): (usize, usize),
     mut inside: u32,
     batch: &mut Unpacked<T>,
@@ -415,28 +417,27 @@ unsafe fn touch_each<T: Real, const PROBE: bool>(
     while inside != 0 {
         let lane = inside.trailing_zeros() as usize;
         inside &= inside - 1;
-        let (old, before) = (lane_of(&batch.x, lane), lane_of(&batch.v, lane));
-        let v_star = lane_of(&batch.new_v, lane);
+        let before = lane_of(&batch.v, lane);
         let k = nodes.surface_of[boundary + lane] as usize;
         let inertia = node::inertia(&c.loads, c.step, nodes.mass.slice()[at + lane]);
         let area = || nodes.inverse_area.get(k).copied().unwrap_or(T::zero());
-        let Some(t) =
-            contact::project_any(road, c.friction.as_ref(), area, inertia, c.step, old, before, v_star)
-        else {
-            continue;
-        };
+        let (x, v_star) = (lane_of(&batch.x, lane), lane_of(&batch.new_v, lane));
+        let node = contact::Node { inertia, x, v: before, v_star };
+        let Some(t) = contact::project(road, c.friction.as_ref(), area, c.step, &node) else { continue };
         for d in 0..3 {
             batch.new_x[d][lane] = t.x[d];
             batch.new_v[d][lane] = t.v[d];
         }
-        unsafe { book_touch::<T, PROBE>(c, k, &t, before, books, sums, contact) };
+        unsafe { book_touch::<T, PROBE>(c, road, k, &t, before, books, sums, contact) };
     }
 }
 
 /// Works of a touching node and, where the step is taken, its window sums.
 #[inline(always)]
+#[allow(clippy::too_many_arguments)] // a touch in full
 unsafe fn book_touch<T: Real, const PROBE: bool>(
     c: &Conditions<T>,
+    road: &Road,
     k: usize,
     t: &Touch<T>,
     before: Vec3<T>,
@@ -456,6 +457,10 @@ unsafe fn book_touch<T: Real, const PROBE: bool>(
         let force = (t.normal_force[d] + t.tangential_force[d]).to_f64();
         sum.impulse[d] += force * c.step.dtm.to_f64();
         contact.force[d] += force;
+    }
+    if c.road_moves {
+        let (force, surface) = (add(t.normal_force, t.tangential_force), road.velocity(t.x));
+        sum.road_work += (dot(force, surface) * c.step.dtm).to_f64();
     }
     let stays = *last == c.number && c.number > 0;
     contact.touching += 1;

@@ -13,10 +13,8 @@ use crate::engine::{Probe, Step, StepContact};
 use crate::physics::lanes::WIDEST;
 use crate::physics::node::{Loads, Prediction, StepSize};
 use crate::physics::rim::{self, Coordinates};
-use crate::physics::road::Plane;
 use crate::physics::scalar::Real;
 use crate::physics::tensor::{Vec3, vec3};
-use crate::scene::Road;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 impl<T: Real> CpuEngine<T> {
@@ -39,9 +37,8 @@ impl<T: Real> CpuEngine<T> {
             step: size,
             loads,
             prediction: Prediction::new(&loads, size),
-            road: self.road.map(|Road::Plane { point, normal, velocity }| {
-                Plane::new(point, normal, velocity, self.frame)
-            }),
+            road: self.road.map(|road| road.seen_from(self.frame)),
+            road_moves: self.road.is_some_and(|road| road.moves()),
             friction: self.friction,
             axle: vec3(self.local(q)),
             axle_velocity: vec3(std::array::from_fn(|d| (q[d] - before[d]) / step.dt)),

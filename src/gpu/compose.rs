@@ -125,7 +125,6 @@ shaders!(
     "rim/none",
     "rim/prescribed",
     "road/plane",
-    "road/velocity",
     "slots/apart",
     "slots/gather_apart",
     "slots/gather_joined",
@@ -201,10 +200,10 @@ pub(super) fn capabilities() -> Capabilities {
 fn friction_parts(law: &Friction, exponential: &'static str) -> Vec<&'static str> {
     let areas = if law.needs_area() { "contact/areas" } else { "contact/areas_none" };
     match law {
-        Friction::Coulomb { .. } => vec!["contact/friction", "friction/coulomb"],
-        Friction::Viscous { .. } => vec!["contact/friction_law", "friction/viscous", areas],
-        Friction::Stribeck { .. } => vec!["contact/friction_law", "friction/stribeck", exponential, areas],
-        Friction::PressureVelocity { .. } => {
+        Friction::Coulomb(_) => vec!["contact/friction", "friction/coulomb"],
+        Friction::Viscous(_) => vec!["contact/friction_law", "friction/viscous", areas],
+        Friction::Stribeck(_) => vec!["contact/friction_law", "friction/stribeck", exponential, areas],
+        Friction::PressureVelocity(_) => {
             vec!["contact/friction_law", "friction/pressure_velocity", exponential, areas]
         }
     }
@@ -381,11 +380,9 @@ impl Choice {
         parts.extend(match (self.road, self.friction) {
             (false, _) => vec!["contact/none"],
             (true, None) => vec!["contact/project", "contact/frictionless", "road/plane"],
-            (true, Some(law)) => [
-                vec!["contact/project", "road/plane", "road/velocity"],
-                friction_parts(&law, self.exponential()),
-            ]
-            .concat(),
+            (true, Some(law)) => {
+                [vec!["contact/project", "road/plane"], friction_parts(&law, self.exponential())].concat()
+            }
         });
         parts.push(if self.held { "hold/components" } else { "hold/none" });
         parts

@@ -198,6 +198,7 @@ impl GpuEngine {
                 v: [v[0], v[1], v[2]],
                 impulse: [0, 1, 2].map(|d| record.impulse[d]),
                 friction_work: record.friction_work,
+                road_work: record.impulse[3],
                 touching: record.touching,
                 sticking: record.sticking,
                 touches: contact[k] != 0,

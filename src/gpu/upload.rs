@@ -42,34 +42,10 @@ pub fn constants(model: &Model, scene: &Scene, chains: &Chains) -> Vec<(&'static
     all.extend(["gravity_x", "gravity_y", "gravity_z"].into_iter().zip(scene.gravity));
     all.push(("face_slots", chains.face as f64));
     all.extend(chains.lattice.iter().flat_map(|l| l.constants(chains.longest)));
-    all.extend(scene.friction.iter().flat_map(friction_constants));
-    if let Some(Road::Plane { point, normal, velocity }) = scene.road {
-        all.extend(["normal_x", "normal_y", "normal_z"].into_iter().zip(normal));
-        all.extend(["road_velocity_x", "road_velocity_y", "road_velocity_z"].into_iter().zip(velocity));
-        // Seen from the frame: it moves only along the road.
-        all.push(("road_offset", (0..3).map(|d| normal[d] * point[d]).sum()));
-    }
+    all.extend(scene.friction.iter().flat_map(Friction::constants));
+    // Seen from where the frame begins: it moves only along directions in which the road does not change.
+    all.extend(scene.road.iter().flat_map(Road::constants));
     all
-}
-
-fn friction_constants(law: &Friction) -> Vec<(&'static str, f64)> {
-    match *law {
-        Friction::Coulomb { mu } => vec![("mu", mu)],
-        Friction::Viscous { slope } => vec![("friction_slope", slope)],
-        Friction::Stribeck { still, kinetic, speed, slope } => vec![
-            ("friction_still", still),
-            ("friction_kinetic", kinetic),
-            ("friction_inverse_speed", 1.0 / speed),
-            ("friction_slope", slope),
-        ],
-        Friction::PressureVelocity { a, b, pressure, c, speed } => vec![
-            ("friction_a", a),
-            ("friction_b", b),
-            ("friction_inverse_pressure", 1.0 / pressure),
-            ("friction_c", c),
-            ("friction_inverse_speed", 1.0 / speed),
-        ],
-    }
 }
 
 /// One over the area of every surface node with the nodes at `x` [1/m2].

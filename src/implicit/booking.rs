@@ -8,7 +8,6 @@
 use super::contact::Status;
 use super::simulation::{Scheme, Simulation};
 use crate::engine::{Probe, SurfaceSum, Window, Works};
-use crate::physics::road::Road;
 use crate::physics::tensor::{Vec3, dot, scale, sub};
 
 /// Sums since the last window, and the state at the end of the last increment.
@@ -74,6 +73,9 @@ impl Books {
             sum.touching += u32::from(sum.touches);
             sum.sticking += u32::from(sum.sticks);
             (0..3).for_each(|i| sum.impulse[i] += dt * s.contact[n][i]);
+            if let Some(surface) = s.surface() {
+                sum.road_work += dt * dot(s.contact[n], surface.road.velocity(s.x[n]));
+            }
         }
         self.remember(s);
     }

@@ -1,4 +1,4 @@
-//! Contact and Coulomb friction of a node in an implicit increment: no multiplier, no penalty, no contact parameter.
+//! Contact and friction of a node in an implicit increment: no multiplier, no penalty, no contact parameter.
 //!
 //! The contact force of a node that touches is its residual, lambda = r: what the body cannot balance there. With
 //! N = n . lambda, T its tangential part, g the gap and s the slip over the increment relative to the road,
@@ -11,8 +11,8 @@
 //! along q otherwise. The solution does not depend on c > 0 (here the node's own stiffness), only the path to it does.
 
 use super::matrix::{Block, product, times, transposed};
-use crate::physics::friction::{Coulomb, Friction, Sliding};
-use crate::physics::road::{Plane, Road};
+use crate::physics::friction::{Friction, Sliding};
+use crate::physics::road::Road;
 use crate::physics::tensor::{Vec3, axpy, cross, dot, scale, sub};
 
 /// What a node does.
@@ -25,10 +25,13 @@ pub enum Status {
 }
 
 /// Road and friction of an increment.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Surface {
-    pub road: Plane<f64>,
-    pub friction: Option<Coulomb<f64>>,
+    pub road: Road,
+    pub friction: Option<Friction>,
+    /// One over the area of each surface node [1/m2], as of the start of the increment; empty unless friction looks at
+    /// pressure.
+    pub inverse_area: Vec<f64>,
     /// Length of the increment [s].
     pub dt: f64,
     /// Gap below which a node touches [m]: round-off of its position.
@@ -46,7 +49,9 @@ pub struct Local {
     /// Normal and tangential force of the road on the node [N].
     pub normal: f64,
     pub tangential: [f64; 2],
+    /// Coefficient at its slip speed, and at rest.
     pub mu: f64,
+    pub mu_at_rest: f64,
     /// A stiffness of the node [N/m].
     pub c: f64,
 }
@@ -81,15 +86,21 @@ impl Surface {
         axpy(self.road.velocity(start), self.dt, start)
     }
 
-    /// Looks at a node that started at `start`, stands at `x` and has the residual `force`.
-    pub fn local(&self, start: Vec3<f64>, x: Vec3<f64>, force: Vec3<f64>, c: f64) -> Local {
+    /// Coefficient of surface node `k` under a normal force [N], sliding at a speed [m/s].
+    pub fn mu(&self, k: usize, normal_force: f64, slip_speed: f64) -> f64 {
+        let pressure = normal_force.max(0.0) * self.inverse_area.get(k).copied().unwrap_or(0.0);
+        self.friction.map_or(0.0, |law| law.coefficient(Sliding { pressure, slip_speed }))
+    }
+
+    /// Looks at surface node `k` that started at `start`, stands at `x` and has the residual `force`.
+    pub fn local(&self, k: usize, start: Vec3<f64>, x: Vec3<f64>, force: Vec3<f64>, c: f64) -> Local {
         let frame = frame(self.road.normal(x));
         let s = times(&frame, sub(x, self.carried(start)));
         let f = times(&frame, force);
         let slip = [s[1], s[2]];
-        let sliding = Sliding { normal_force: f[0].max(0.0), slip_speed: length(slip) / self.dt };
-        let mu = self.friction.map_or(0.0, |law| law.coefficient(sliding));
-        Local { frame, gap: self.road.gap(x), slip, normal: f[0], tangential: [f[1], f[2]], mu, c }
+        let (mu, mu_at_rest) = (self.mu(k, f[0], length(slip) / self.dt), self.mu(k, f[0], 0.0));
+        let tangential = [f[1], f[2]];
+        Local { frame, gap: self.road.gap(x), slip, normal: f[0], tangential, mu, mu_at_rest, c }
     }
 
     /// The status that follows from an iterate.
@@ -101,7 +112,9 @@ impl Surface {
         if node.normal - node.c * node.gap <= 0.0 {
             return Status::Free;
         }
-        if self.friction.is_some() && length(node.trial()) <= node.mu * node.normal {
+        // What slides is caught by the friction of its sliding, what stands is let go by that of rest.
+        let mu = if status == Status::Slip { node.mu.min(node.mu_at_rest) } else { node.mu_at_rest };
+        if self.friction.is_some() && length(node.trial()) <= mu * node.normal {
             Status::Stick
         } else {
             Status::Slip

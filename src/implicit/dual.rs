@@ -119,6 +119,11 @@ impl<N: Lanes<Real = f64>> Scalar for Dual<N> {
         self.chain(r, -r / (3.0 * self.value))
     }
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
+        self.chain(root, 0.5 / root)
+    }
+    #[inline(always)]
     fn ln(self) -> Self {
         self.chain(self.value.ln(), 1.0 / self.value)
     }

@@ -153,8 +153,8 @@ impl<'a> Problem<'a> {
         stiffness: &[f64],
     ) -> Local {
         let n = self.model.mesh.surface[k] as usize;
-        let surface = inc.surface.expect("statuses exist only with a road");
-        surface.local(inc.start[n], at.x[n], r[n], stiffness[k])
+        let surface = inc.surface.as_ref().expect("statuses exist only with a road");
+        surface.local(k, inc.start[n], at.x[n], r[n], stiffness[k])
     }
 
     /// Norm of everything that should vanish (eq. 23's numerator) [N]: residuals of free nodes, departures from the

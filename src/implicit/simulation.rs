@@ -10,8 +10,8 @@ use super::contact::{Status, Surface};
 use super::newton::{Converged, Failure, Iteration, Newton};
 use super::problem::{Increment, Iterate, Problem, RimIncrement};
 use crate::engine::State;
+use crate::model::areas::inverse_areas;
 use crate::physics::rim::Coordinates;
-use crate::physics::road::Road;
 use crate::physics::tensor::{Vec3, axpy, dot, sub};
 
 /// Statics or dynamics.
@@ -74,7 +74,7 @@ impl<'a> Simulation<'a> {
     ) -> Simulation<'a> {
         let nodes = state.x.len();
         let touched =
-            if surface.is_some_and(|s| s.friction.is_some()) { Status::Stick } else { Status::Slip };
+            if surface.as_ref().is_some_and(|s| s.friction.is_some()) { Status::Stick } else { Status::Slip };
         let status = match &surface {
             None => Vec::new(),
             Some(s) => {
@@ -160,7 +160,7 @@ impl<'a> Simulation<'a> {
 
     /// The equations of an increment.
     pub fn increment(&self, target: &Target) -> Increment {
-        let surface = self.surface.map(|s| Surface { dt: target.dt, ..s });
+        let surface = self.surface.as_ref().map(|s| self.surface_over(s, target.dt));
         let count = self.x.len();
         let mut inc = Increment {
             time: target.time,
@@ -178,12 +178,22 @@ impl<'a> Simulation<'a> {
         };
         if let Scheme::Dynamic { delta } = self.scheme {
             inc.damping = target.damping;
-            inc.euler = self.euler_nodes(target.dt, surface.as_ref());
+            inc.euler = self.euler_nodes(target.dt, self.surface.as_ref());
             for n in 0..count {
                 self.in_time(n, [target.dt, delta], &mut inc);
             }
         }
         inc
+    }
+
+    /// Road and friction of an increment of `dt` from here.
+    fn surface_over(&self, surface: &Surface, dt: f64) -> Surface {
+        let mesh = &self.problem.model.mesh;
+        let inverse_area = match surface.friction {
+            Some(law) if law.needs_area() => inverse_areas(mesh, |n| self.x[n as usize], &surface.road),
+            _ => Vec::new(),
+        };
+        Surface { dt, inverse_area, ..*surface }
     }
 
     /// Nodes that touch, or would within the step at their present speed and acceleration.

@@ -47,7 +47,6 @@ fn quarters(
     wanted: impl Fn(usize) -> bool,
     mut visit: impl FnMut(usize, f64, &[[f64; 3]; 4]),
 ) {
-    let Road::Plane { normal, .. } = road;
     // By node, its index in the surface if it is wanted: most facets of a wheel are passed over.
     const NOT: u32 = u32::MAX;
     let mut of_node = vec![NOT; mesh.nodes.len()];
@@ -62,10 +61,11 @@ fn quarters(
         let p = facet.map(&x);
         let middle = |a: usize, b: usize| scale(add(p[a], p[b]), 0.5);
         let centre = scale(add(middle(0, 1), middle(2, 3)), 0.5);
+        let normal = road.normal(centre);
         for a in (0..4).filter(|a| on_surface[*a] != NOT) {
             let (before, after) = (middle((a + 3) % 4, a), middle(a, (a + 1) % 4));
             let doubled = cross(sub(centre, p[a]), sub(before, after));
-            let area = -0.5 * dot(doubled, *normal);
+            let area = -0.5 * dot(doubled, normal);
             if area > 0.0 {
                 visit(on_surface[a] as usize, area, &[p[a], after, centre, before]);
             }

@@ -17,11 +17,9 @@ pub fn grain(mesh: &Mesh) -> f64 {
 /// How far the frame at `frame` should move so that `axle` is within a grain of it [m]. Only along directions in
 /// which the road does not change: its offset must stay what it is, to the last digit.
 pub fn shift(grain: f64, axle: [f64; 3], frame: [f64; 3], road: Option<&Road>) -> [f64; 3] {
-    let normal = road.map(|Road::Plane { normal, .. }| *normal);
-    let axis_normal = normal.is_none_or(|n| n.iter().filter(|n| **n != 0.0).count() == 1);
+    let along = road.map_or([true; 3], |road| road.invariant());
     std::array::from_fn(|d| {
-        let along = normal.is_none_or(|n| n[d] == 0.0);
         let away = axle[d] - frame[d];
-        if axis_normal && along && away.abs() > grain { (away / grain).round() * grain } else { 0.0 }
+        if along[d] && away.abs() > grain { (away / grain).round() * grain } else { 0.0 }
     })
 }

@@ -78,7 +78,6 @@ impl Rolling {
         road: &Road,
         free_radius: Option<f64>,
     ) -> Option<Rolling> {
-        let Road::Plane { point, normal, velocity } = *road;
         let tail = span.tail();
         let (first, last) = ends(history, span, &tail)?;
         let length = last.time_s - first.time_s;
@@ -86,23 +85,26 @@ impl Rolling {
         let spin_rad_s = rate(|s| s.rim_angle_rad);
         let axle = |s: &Sample| [s.axle_x_m, s.axle_y_m, s.axle_z_m];
         let travel = sub(axle(last), axle(first)).map(|d| d / length);
+        let mean = |value: fn(&Sample) -> f64| stages::mean(history, &tail, value);
+        let place = [mean(|s| s.axle_x_m), mean(|s| s.axle_y_m), mean(|s| s.axle_z_m)];
+        let (normal, velocity) = (road.normal(place), road.velocity(place));
         let v = sub(travel, velocity);
         let speed_m_s = dot(v, v).sqrt();
         let way = speed_m_s * length;
         if (spin_rad_s * length).abs() < LEAST_TURN || way == 0.0 {
             return None;
         }
-        let mean = |value: fn(&Sample) -> f64| stages::mean(history, &tail, value);
         let force = [mean(|s| s.road_fx_N), mean(|s| s.road_fy_N), mean(|s| s.road_fz_N)];
         let moment = [mean(|s| -s.rim_mx_Nm), mean(|s| -s.rim_my_Nm), mean(|s| -s.rim_mz_Nm)];
-        let [heading, left] =
-            road_axes(road, &[0.0, 0.0, 0.0, mean(|s| s.steer_rad), mean(|s| s.camber_rad), 0.0]);
+        let [heading, left] = road_axes(
+            road,
+            &[place[0], place[1], place[2], mean(|s| s.steer_rad), mean(|s| s.camber_rad), 0.0],
+        );
         let [ahead, aside] = [dot(v, heading), dot(v, left)];
         let [side_force_N, normal_force_N] = [dot(force, left), dot(force, normal)];
         let aligning_moment_Nm = dot(moment, normal);
         let loss = |value: fn(&Sample) -> f64| -rate(value) * length / way;
-        // Friction's work on the body, less what the moving road puts in.
-        let friction_loss_N = loss(|s| s.friction_work_J) + dot(force, velocity) * length / way;
+        let friction_loss_N = loss(|s| s.friction_work_J - s.road_work_J);
         let viscous_loss_N = loss(|s| s.viscous_work_J);
         let other_loss_N = loss(|s| s.contact_work_J + s.damping_work_J);
         let effective_radius_m = ahead / spin_rad_s;
@@ -122,10 +124,7 @@ impl Rolling {
             friction_loss_N,
             viscous_loss_N,
             other_loss_N,
-            loaded_radius_m: mean(|s| s.axle_x_m) * normal[0]
-                + mean(|s| s.axle_y_m) * normal[1]
-                + mean(|s| s.axle_z_m) * normal[2]
-                - dot(point, normal),
+            loaded_radius_m: road.gap(place),
             effective_radius_m,
             free_rolling_radius_m: stage.rolls_freely().then_some(effective_radius_m),
             footprint_length_m: mean(|s| s.footprint_length_m),

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 use super::summary::number;
 use crate::physics::tensor::dot;
 use crate::record::ContactNoise;
-use crate::scene::Road;
 
 /// What the scatter of the contact force says of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -57,9 +56,10 @@ const LEAST_STEPS: u64 = 300;
 impl ContactScatter {
     /// Judges a stage's noise; none where the body has left the road on the way, or of so few steps that a motion looks
     /// like noise.
-    pub fn of(noise: &ContactNoise, road: &Road, limit: f64) -> Option<ContactScatter> {
-        let Road::Plane { normal, .. } = road;
-        let mean_normal_N = dot(noise.mean, *normal);
+    ///
+    /// `normal`: of the road where the body touches it.
+    pub fn of(noise: &ContactNoise, normal: [f64; 3], limit: f64) -> Option<ContactScatter> {
+        let mean_normal_N = dot(noise.mean, normal);
         if mean_normal_N <= 0.0 || noise.free_steps > 0 || noise.steps < LEAST_STEPS {
             return None;
         }
@@ -96,7 +96,7 @@ mod tests {
     use super::*;
     use crate::record::Tone;
 
-    const ROAD: Road = Road::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [0.0; 3] };
+    const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
     /// 300 N, with a tone and a rest of so many newtons along z.
     fn noise(tone: f64, rest: f64) -> ContactNoise {
@@ -113,8 +113,7 @@ mod tests {
 
     #[test]
     fn the_limit_parts_smooth_from_tone_and_chatter() {
-        let verdict =
-            |tone, rest, limit| ContactScatter::of(&noise(tone, rest), &ROAD, limit).unwrap().verdict;
+        let verdict = |tone, rest, limit| ContactScatter::of(&noise(tone, rest), UP, limit).unwrap().verdict;
         assert_eq!(verdict(14.9, 14.9, 0.05), Verdict::Smooth);
         assert_eq!(verdict(15.1, 14.9, 0.05), Verdict::Tone);
         assert_eq!(verdict(14.9, 15.1, 0.05), Verdict::Chattering);
@@ -122,12 +121,12 @@ mod tests {
         assert_eq!(verdict(50.0, 15.1, 0.2), Verdict::Smooth);
         // Sideways scatter counts against the normal force too.
         let sideways = ContactNoise { remaining: [0.0, 16.0, 0.0], ..noise(0.0, 0.0) };
-        assert_eq!(ContactScatter::of(&sideways, &ROAD, 0.05).unwrap().verdict, Verdict::Chattering);
+        assert_eq!(ContactScatter::of(&sideways, UP, 0.05).unwrap().verdict, Verdict::Chattering);
     }
 
     #[test]
     fn what_leaves_the_road_or_hardly_steps_is_not_judged() {
-        let judged = |noise: ContactNoise| ContactScatter::of(&noise, &ROAD, 0.05).is_some();
+        let judged = |noise: ContactNoise| ContactScatter::of(&noise, UP, 0.05).is_some();
         assert!(judged(noise(1.0, 1.0)));
         assert!(!judged(ContactNoise { free_steps: 1, ..noise(1.0, 1.0) }));
         assert!(!judged(ContactNoise { steps: 200, ..noise(1.0, 1.0) }));

@@ -190,7 +190,9 @@ impl StageMeans {
                 continue;
             };
             let noise = totals.noise.get(i).copied().flatten();
-            mean.contact = noise.and_then(|n| ContactScatter::of(&n, road, scene.output.chatter_limit));
+            let end = &history[span.rows.end - 1];
+            let normal = road.normal([end.axle_x_m, end.axle_y_m, end.axle_z_m]);
+            mean.contact = noise.and_then(|n| ContactScatter::of(&n, normal, scene.output.chatter_limit));
             let radius = stage.slip.and(totals.free_radius);
             mean.rolling = Rolling::of(history, &span, stage, road, radius);
         }

@@ -1,7 +1,7 @@
 //! Contact that is always satisfied (eqs. 7-10, fig. 3): each surface node is its own problem, since the mass is
 //! lumped (the forward-increment Lagrange multiplier of Carpenter, Taylor & Katona 1991 with a rigid target).
 
-use super::friction::{AnyFriction, AtNode, Coulomb, Friction, Sliding};
+use super::friction::{Friction, FrictionLaw, Sliding, WithFriction};
 use super::node::StepSize;
 use super::road::Road;
 use super::scalar::Real;
@@ -21,21 +21,31 @@ pub struct Touch<S> {
     pub sticks: bool,
 }
 
+/// A node before the step, and where it would go without contact.
+#[derive(Debug, Clone, Copy)]
+pub struct Node<S> {
+    /// m (1 + alpha dtm / 2): what a force acts against over `dtm` [kg].
+    pub inertia: S,
+    /// Position [m] and velocity [m/s] before the step.
+    pub x: Vec3<S>,
+    pub v: Vec3<S>,
+    /// Velocity predicted without contact [m/s].
+    pub v_star: Vec3<S>,
+}
+
 /// Puts a node that would end inside the road back on its surface.
 ///
-/// `inertia` = m (1 + alpha dtm / 2): what a force acts against over `dtm`. `x` is the position before the step and
-/// `v_star` the velocity predicted without contact. `None`: the node stays free. The normal force is never a pull:
-/// it exists only where the predicted gap is negative.
+/// `inverse_area` [1/m2] is asked for by laws in pressure only. `None`: the node stays free. The normal force is never a
+/// pull: it exists only where the predicted gap is negative.
 #[inline(always)]
-pub fn project<S: Real, R: Road<S>, F: Friction<S>>(
-    road: &R,
-    friction: Option<&F>,
-    inertia: S,
+pub fn project<S: Real>(
+    road: &Road,
+    friction: Option<&Friction>,
+    inverse_area: impl FnOnce() -> S,
     step: StepSize<S>,
-    x: Vec3<S>,
-    v_star: Vec3<S>,
+    node: &Node<S>,
 ) -> Option<Touch<S>> {
-    let x_star = axpy(v_star, step.dt, x);
+    let x_star = axpy(node.v_star, step.dt, node.x);
     let gap = road.gap(x_star);
     // A NaN gap belongs to the failure report of the element pass.
     if gap.partial_cmp(&S::zero()) != Some(std::cmp::Ordering::Less) {
@@ -43,74 +53,79 @@ pub fn project<S: Real, R: Road<S>, F: Friction<S>>(
     }
     let n = road.normal(x_star);
     let push = -gap / step.dt;
-    let per_step = inertia / step.dtm;
-    let pressed = axpy(n, push, v_star);
+    let per_step = node.inertia / step.dtm;
+    let pressed = axpy(n, push, node.v_star);
     let normal_force = scale(n, per_step * push);
     let (v, sticks) = match friction {
         None => (pressed, false),
-        Some(law) => tangential(road, law, per_step, push, x_star, n, pressed),
+        Some(law) => {
+            let pressure = if law.needs_area() { per_step * push * inverse_area() } else { S::zero() };
+            law.visit(Rubbed { road, node, x_star, n, push, pressure, pressed })
+        }
     };
-    let mut x_new = axpy(v, step.dt, x);
+    let mut x_new = axpy(v, step.dt, node.x);
     x_new = axpy(n, -road.gap(x_new), x_new);
     let tangential_force = scale(sub(v, pressed), per_step);
     Some(Touch { x: x_new, v, normal_force, tangential_force, sticks })
 }
 
-/// The same with whatever law a scene has: `inverse_area` [1/m2] and the velocity before the step, `v`, are read by laws
-/// in pressure and speed only.
-#[inline(always)]
-#[allow(clippy::too_many_arguments)] // a node in full
-pub fn project_any<S: Real, R: Road<S>>(
-    road: &R,
-    friction: Option<&AnyFriction<S>>,
-    inverse_area: impl FnOnce() -> S,
-    inertia: S,
-    step: StepSize<S>,
-    x: Vec3<S>,
-    v: Vec3<S>,
-    v_star: Vec3<S>,
-) -> Option<Touch<S>> {
-    match friction {
-        None => project::<S, R, Coulomb<S>>(road, None, inertia, step, x, v_star),
-        Some(AnyFriction::Coulomb(law)) => project(road, Some(law), inertia, step, x, v_star),
-        Some(AnyFriction::Law(law)) => {
-            let relative = sub(v, road.velocity(x));
-            let n = road.normal(x);
-            let slip = axpy(n, -dot(relative, n), relative);
-            let law = AtNode { law: *law, inverse_area: inverse_area(), slip_before: dot(slip, slip).sqrt() };
-            project(road, Some(&law), inertia, step, x, v_star)
+/// Velocity after friction of a node that is pressed on the road with `push` [m/s].
+struct Rubbed<'a, S> {
+    road: &'a Road,
+    node: &'a Node<S>,
+    x_star: Vec3<S>,
+    n: Vec3<S>,
+    push: S,
+    /// Normal force over area [Pa]; zero where the law does not look at it.
+    pressure: S,
+    /// Velocity without friction.
+    pressed: Vec3<S>,
+}
+
+impl<S: Real> WithFriction for Rubbed<'_, S> {
+    /// The velocity, and whether the node sticks.
+    type Output = (Vec3<S>, bool);
+
+    /// With the road if the force that needs is within the cone, else slowed by mu fN.
+    #[inline(always)]
+    fn with<F: FrictionLaw>(self, law: F) -> (Vec3<S>, bool) {
+        let Rubbed { road, node, x_star, n, push, pressure, pressed } = self;
+        let surface = road.velocity(x_star);
+        let relative = sub(pressed, surface);
+        let normal_speed = dot(relative, n);
+        let slip = axpy(n, -normal_speed, relative);
+        let speed = dot(slip, slip).sqrt();
+        let most = |slip_speed| law.coefficient(Sliding { pressure, slip_speed }) * push;
+        let held = most(S::zero());
+        if F::CONSTANT {
+            return if speed > held {
+                (axpy(slip, -(held / speed), pressed), false)
+            } else {
+                (axpy(n, normal_speed, surface), true)
+            };
         }
+        let before = slip_before(road, node);
+        // What slid in the step before is stopped by the friction of its sliding, not by that of rest.
+        let sliding = most(before);
+        if speed <= held && speed <= sliding {
+            // Built from the road's velocity, not by subtraction: on a resting road a sticking node does not creep.
+            return (axpy(n, normal_speed, surface), true);
+        }
+        (axpy(slip, -(slowed_by(speed, before, sliding, most) / speed), pressed), false)
     }
 }
 
-/// Velocity after friction: with the road if the force that needs is within the cone, else slowed by mu fN.
+/// Slip speed in the step before [m/s]. What rounding leaves of a node that stuck is none: a law that jumps at rest would take
+/// it for sliding.
 #[inline(always)]
-fn tangential<S: Real, R: Road<S>, F: Friction<S>>(
-    road: &R,
-    law: &F,
-    per_step: S,
-    push: S,
-    x_star: Vec3<S>,
-    n: Vec3<S>,
-    pressed: Vec3<S>,
-) -> (Vec3<S>, bool) {
-    let surface = road.velocity(x_star);
-    let relative = sub(pressed, surface);
-    let normal_speed = dot(relative, n);
-    let slip = axpy(n, -normal_speed, relative);
-    let speed = dot(slip, slip).sqrt();
-    let most = |slip_speed| law.coefficient(Sliding { normal_force: per_step * push, slip_speed }) * push;
-    let held = most(S::zero());
-    if F::CONSTANT && speed > held {
-        return (axpy(slip, -(held / speed), pressed), false);
-    }
-    // What slid in the step before is stopped by the friction of its sliding, not by that of rest.
-    let sliding = most(law.slip_before());
-    if speed <= held && speed <= sliding {
-        // Built from the road's velocity, not by subtraction: on a resting road a sticking node does not creep.
-        return (axpy(n, normal_speed, surface), true);
-    }
-    (axpy(slip, -(slowed_by(speed, law.slip_before(), sliding, most) / speed), pressed), false)
+fn slip_before<S: Real>(road: &Road, node: &Node<S>) -> S {
+    let (surface, n) = (road.velocity(node.x), road.normal(node.x));
+    let relative = sub(node.v, surface);
+    let slip = axpy(n, -dot(relative, n), relative);
+    let (square, scale) = (dot(slip, slip), dot(node.v, node.v) + dot(surface, surface));
+    // A dozen roundings of the velocities.
+    let rounding = S::from_f64((16.0 * S::EPSILON) * (16.0 * S::EPSILON));
+    if square > rounding * scale { square.sqrt() } else { S::zero() }
 }
 
 /// Loss of speed of a node that slides, mu depending on the speed v that remains: v + mu(v) push = speed.

@@ -36,6 +36,7 @@ pub trait Scalar:
     }
     /// self^(-1/3), self > 0.
     fn recip_cbrt(self) -> Self;
+    fn sqrt(self) -> Self;
     /// Natural logarithm; in energies only, never in forces.
     fn ln(self) -> Self;
     /// The smaller of the two; NaN if either is NaN, so that a failure cannot hide.
@@ -54,7 +55,6 @@ pub trait Real: Scalar + PartialOrd + bytemuck::Pod + Vectors {
     /// Unit round-off doubled: the distance from 1 to the next number.
     const EPSILON: f64;
     fn to_f64(self) -> f64;
-    fn sqrt(self) -> Self;
     /// e^self; in friction laws only.
     fn exp(self) -> Self;
     /// self^(-1/3) within 4 %.
@@ -80,6 +80,10 @@ macro_rules! real {
                 1.0 / self.cbrt()
             }
             #[inline(always)]
+            fn sqrt(self) -> Self {
+                <$type>::sqrt(self)
+            }
+            #[inline(always)]
             fn ln(self) -> Self {
                 <$type>::ln(self)
             }
@@ -93,10 +97,6 @@ macro_rules! real {
             #[inline(always)]
             fn to_f64(self) -> f64 {
                 self as f64
-            }
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                <$type>::sqrt(self)
             }
             #[inline(always)]
             fn exp(self) -> Self {

@@ -9,7 +9,8 @@ pub type Mat3<S> = [Vec3<S>; 3];
 
 #[inline(always)]
 pub fn vec3<S: Scalar>(v: [f64; 3]) -> Vec3<S> {
-    v.map(S::from_f64)
+    // Not by `map`, whose call vectors would pass through memory.
+    [S::from_f64(v[0]), S::from_f64(v[1]), S::from_f64(v[2])]
 }
 
 #[inline(always)]

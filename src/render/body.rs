@@ -8,14 +8,14 @@ use super::canvas::Canvas;
 use super::colour::{ColourMap, INK, RIGID, WEB, WHITE, ink, linear};
 use super::gpu::{Frame, Geometry, Segment, Vertex};
 use super::legend;
-use super::road::{Plane, Plate};
+use super::road::{Chart, Plate};
 use super::scale::{Range, Scale};
 use super::surface::{edge_style, edges, facet_elements, lines, median_length, quad};
 use super::{DEFAULT_SIZE, Renderer, check_size, field, unit_of};
 use crate::Result;
 use crate::model::mesh::Mesh;
 use crate::record::Snapshot;
-use crate::scene::{Field, Road};
+use crate::scene::{Field, GROUND, Road};
 
 /// How to draw the body.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +48,7 @@ impl Default for BodyView {
             range: Range::Auto,
             map: ColourMap::default(),
             title: None,
-            road: Some(Road::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [0.0; 3] }),
+            road: Some(GROUND),
             edges: true,
             shading: 0.35,
         }
@@ -120,8 +120,7 @@ impl Renderer {
         field::check(mesh, snapshot)?;
         let mut points: Vec<DVec3> = snapshot.x.iter().map(|&x| x.into()).collect();
         if let Some(plate) = plate(snapshot, options) {
-            points.extend(plate.corners());
-            points.extend(plate.foot());
+            points.extend(plate.outline());
         }
         let rect = Layout::new(options.size).body;
         Ok(Camera::fit(options.view.axes(), options.projection, &points, rect, options.size))
@@ -130,12 +129,12 @@ impl Renderer {
 
 /// The road's plate, if there is a road near enough to be seen with the body.
 fn plate(snapshot: &Snapshot, options: &BodyView) -> Option<Plate> {
-    let plane = Plane::of(options.road?);
+    let chart = Chart(options.road?);
     let points: Vec<DVec3> = snapshot.x.iter().map(|&x| x.into()).collect();
     let low = points.iter().copied().reduce(DVec3::min)?;
     let high = points.iter().copied().reduce(DVec3::max)?;
-    let gap = points.iter().map(|&p| plane.gap(p)).fold(f64::INFINITY, f64::min);
-    (gap.abs() < (high - low).length()).then(|| Plate::under(plane, &points, 0.22))
+    let gap = points.iter().map(|&p| chart.gap(p)).fold(f64::INFINITY, f64::min);
+    (gap.abs() < (high - low).length()).then(|| Plate::under(chart, &points, 0.22))
 }
 
 fn is_rigid(mesh: &Mesh, facet: &[u32; 4]) -> bool {

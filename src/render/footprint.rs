@@ -1,6 +1,6 @@
 //! Contact forces: the footprint seen through the road, or as arrows in space.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use image::RgbaImage;
 
 use super::camera::{Camera, Projection, Rect, View};
@@ -15,7 +15,7 @@ use super::{DEFAULT_SIZE, Renderer, check_size, field, legend, unit_of};
 use crate::Result;
 use crate::model::mesh::Mesh;
 use crate::record::Snapshot;
-use crate::scene::Road;
+use crate::scene::{GROUND, Road};
 
 /// How contact forces are shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,7 +60,7 @@ impl Default for FootprintView {
             range: Range::Auto,
             map: ColourMap::default(),
             title: None,
-            road: Road::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [0.0; 3] },
+            road: GROUND,
         }
     }
 }
@@ -138,8 +138,8 @@ impl Renderer {
         scale: &Scale,
     ) -> Result<RgbaImage> {
         let layout = Layout::new(options.size);
-        let plane = contact.plane;
-        let axes = [plane.along, -plane.across, -plane.normal];
+        let axes = contact.axes;
+        let axes = [axes.along, -axes.across, -axes.normal];
         let camera =
             Camera::fit(axes, Projection::Orthographic, &contact.corners(), layout.plot, options.size);
         let symbols = Symbols::new(contact, camera.pixels_per_metre(), layout.unit);
@@ -171,7 +171,7 @@ impl Renderer {
         let mut y = colour_legend(&mut canvas, &layout, options, contact, scale);
         y = symbols.legend(&mut canvas, [layout.legend.x, y]);
         y = state_legend(&mut canvas, [layout.legend.x, y], contact, symbols.state);
-        if let Some(way) = travel(mesh, snapshot, options.road, &plane) {
+        if let Some(way) = travel(mesh, snapshot, contact) {
             travel_legend(&mut canvas, [layout.legend.x, y], [way.x, way.y]);
         }
         canvas.finish()
@@ -192,7 +192,7 @@ fn body_from_below(
     for &facet in &contact.facets {
         let corners = facet.map(|n| DVec3::from(snapshot.x[n as usize]));
         let paint = corners.map(|x| {
-            let share = (contact.plane.gap(x) / reach).clamp(0.0, 1.0).sqrt() as f32;
+            let share = (contact.chart.gap(x) / reach).clamp(0.0, 1.0).sqrt() as f32;
             let touches = facet.iter().all(|&n| touching[n as usize]);
             let share = if touches { 0.0 } else { 0.25 + 0.75 * share };
             std::array::from_fn(|d| near[d] + share * (far[d] - near[d]))
@@ -249,8 +249,10 @@ fn plot_frame(canvas: &mut Canvas, plot: Rect, camera: &Camera, contact: &Contac
     let u = canvas.unit;
     let (left, right, top, bottom) = (plot.x, plot.x + plot.width, plot.y, plot.y + plot.height);
     let per_metre = camera.pixels_per_metre();
-    let plane = contact.plane;
-    let middle = camera.project(plane.at(DVec2::ZERO, 0.0).into());
+    // Ticks are measured from the zero of the road's coordinates, along the axes of the picture.
+    let shown = 0.5 * (contact.low + contact.high);
+    let centre = camera.project(contact.chart.at(shown, 0.0).into());
+    let middle = [centre[0] - shown.x * per_metre, centre[1] - shown.y * per_metre];
     let (low, high) = (
         [(left - middle[0]) / per_metre, (top - middle[1]) / per_metre],
         [(right - middle[0]) / per_metre, (bottom - middle[1]) / per_metre],

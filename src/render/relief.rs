@@ -7,7 +7,7 @@ use super::Renderer;
 use super::camera::{Camera, Projection, View};
 use super::canvas::{Anchor, Canvas, Weight};
 use super::colour::{INK, QUIET, SLIP, ink, linear};
-use super::contact::{Contact, travel};
+use super::contact::{Contact, Touch, travel};
 use super::footprint::{FootprintView, Layout, caption, colour_legend};
 use super::gpu::{Frame, Geometry, Vertex};
 use super::legend;
@@ -36,14 +36,14 @@ impl Renderer {
         view: View,
     ) -> Result<RgbaImage> {
         let layout = Layout::new(options.size);
-        let plane = contact.plane;
+        let axes = contact.axes;
         let largest = contact.touches.iter().map(|t| t.normal.max(t.shear.length())).fold(0.0, f64::max);
         let reach = REACH * (contact.high - contact.low).max_element();
         let metres_per_newton = if largest > 0.0 { reach / largest } else { 0.0 };
-        let plate = Plate::under(plane, &contact.corners(), 0.03);
-        let mut points = plate.corners().to_vec();
-        points.extend(plate.foot());
-        points.extend(contact.touches.iter().map(|t| t.x + plane.normal * (t.normal * metres_per_newton)));
+        let plate = Plate::under(contact.chart, &contact.corners(), 0.03);
+        let mut points = plate.outline();
+        let tip = |t: &Touch| t.x + contact.chart.axes(t.x).normal * (t.normal * metres_per_newton);
+        points.extend(contact.touches.iter().map(tip));
         let camera = Camera::fit(view.axes(), Projection::Orthographic, &points, layout.plot, options.size);
 
         let mut geometry = Geometry::default();
@@ -51,8 +51,9 @@ impl Renderer {
         outline(&mut geometry, &camera, snapshot, contact, layout.unit);
         let thick = 0.045 * contact.spacing;
         for touch in &contact.touches {
-            let normal = plane.normal * (touch.normal * metres_per_newton);
-            let shear = plane.along * touch.shear.x + plane.across * touch.shear.y;
+            let here = contact.chart.axes(touch.x);
+            let normal = here.normal * (touch.normal * metres_per_newton);
+            let shear = here.along * touch.shear.x + here.across * touch.shear.y;
             let place = scale.place(options.colour.of(touch)) as f32;
             arrow(&mut geometry.mapped, &camera, touch.x, normal, thick, [place, 0.0, 0.0]);
             let colour = linear(if touch.slips { SLIP } else { INK });
@@ -69,14 +70,14 @@ impl Renderer {
         let x = layout.legend.x;
         let mut y = colour_legend(&mut canvas, &layout, options, contact, scale);
         if largest > 0.0 {
-            y = reference(&mut canvas, &camera, plane.normal, largest, metres_per_newton, [x, y]);
+            y = reference(&mut canvas, &camera, axes.normal, largest, metres_per_newton, [x, y]);
         } else {
             let at = [layout.plot.x, layout.plot.y];
             canvas.text("no contact", at, Anchor::Left, Weight::Medium, 30.0, QUIET, 0.0);
         }
         y = state_legend(&mut canvas, [x, y], contact, StateSymbol::Arrow);
-        if let Some(way) = travel(mesh, snapshot, options.road, &plane) {
-            let [right, up, _] = camera.turn(plane.along * way.x + plane.across * way.y);
+        if let Some(way) = travel(mesh, snapshot, contact) {
+            let [right, up, _] = camera.turn(axes.along * way.x + axes.across * way.y);
             travel_legend(&mut canvas, [x, y], [right, -up]);
         }
         let foot = f64::from(height) - 42.0 * u;
@@ -90,8 +91,8 @@ impl Renderer {
 fn outline(geometry: &mut Geometry, camera: &Camera, snapshot: &Snapshot, contact: &Contact, unit: f64) {
     let inside = |n: &u32| {
         let x = DVec3::from(snapshot.x[*n as usize]);
-        let flat = contact.plane.flat(x);
-        let is_near = contact.plane.gap(x) < contact.spacing;
+        let flat = contact.chart.flat(x);
+        let is_near = contact.chart.gap(x) < contact.spacing;
         is_near && flat.cmpge(contact.low).all() && flat.cmple(contact.high).all()
     };
     let near: Vec<[u32; 4]> = contact.facets.iter().filter(|f| f.iter().all(inside)).copied().collect();

@@ -1,4 +1,4 @@
-//! The road in a picture: a plate under the body with a quiet grid.
+//! The road in a picture: a plate under the body with a quiet grid, on the road's own coordinates.
 
 use glam::{DVec2, DVec3};
 
@@ -9,48 +9,52 @@ use super::scale::{round_step, round_values};
 use super::surface::quad;
 use crate::scene::Road;
 
-/// A plane with axes in it: `along` is x (or what is left of it in the plane), `across` completes
-/// (along, across, normal) to a right-handed set.
+/// Unit vectors at a point of a road: along its two coordinates and outward, a right-handed set.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plane {
-    pub point: DVec3,
+pub struct Axes {
     pub along: DVec3,
     pub across: DVec3,
     pub normal: DVec3,
 }
 
-impl Plane {
-    /// The plane of a road.
-    pub fn of(road: Road) -> Plane {
-        let Road::Plane { point, normal, .. } = road;
-        let normal = DVec3::from(normal).try_normalize().unwrap_or(DVec3::Z);
-        let start = if normal.x.abs() < 0.9 { DVec3::X } else { DVec3::Y };
-        let along = start.reject_from_normalized(normal).normalize();
-        // The origin of the plane's coordinates is the foot of the space's origin.
-        let foot = normal * normal.dot(DVec3::from(point));
-        Plane { point: foot, along, across: normal.cross(along), normal }
-    }
+/// A road by its own coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Chart(pub Road);
 
-    /// Coordinates in the plane [m].
+impl Chart {
+    /// Coordinates of the surface point nearest to x [m].
     pub fn flat(&self, x: DVec3) -> DVec2 {
-        DVec2::new(self.along.dot(x - self.point), self.across.dot(x - self.point))
+        self.0.chart(x.into()).into()
     }
 
-    /// Height above the plane [m].
+    /// Height above the road [m].
     pub fn gap(&self, x: DVec3) -> f64 {
-        self.normal.dot(x - self.point)
+        self.0.gap(x.to_array())
     }
 
-    /// The point of the plane with the given coordinates, lifted by `height`.
+    /// The point of the road with the given coordinates, lifted by `height`.
     pub fn at(&self, flat: DVec2, height: f64) -> DVec3 {
-        self.point + self.along * flat.x + self.across * flat.y + self.normal * height
+        let x = self.0.point(flat.into());
+        DVec3::from(x) + DVec3::from(self.0.normal(x)) * height
+    }
+
+    /// Axes at the surface point nearest to x.
+    pub fn axes(&self, x: DVec3) -> Axes {
+        let [along, across] = self.0.tangents(x.into()).map(DVec3::from);
+        Axes { along, across, normal: self.0.normal(x.to_array()).into() }
+    }
+
+    /// Coordinates along the first direction from `low` to `high`, between which the road is drawn straight.
+    fn steps(&self, low: f64, high: f64) -> Vec<f64> {
+        let count = ((high - low) / self.0.straight()).ceil().max(1.0) as usize;
+        (0..=count).map(|i| low + (high - low) * i as f64 / count as f64).collect()
     }
 }
 
 /// The part of a road that is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plate {
-    plane: Plane,
+    chart: Chart,
     low: DVec2,
     high: DVec2,
     thickness: f64,
@@ -63,14 +67,14 @@ const GRID: [u8; 3] = [196, 201, 209];
 
 impl Plate {
     /// A plate under `points`, wider than them by `margin` times their size.
-    pub fn under(plane: Plane, points: &[DVec3], margin: f64) -> Plate {
-        let flats = || points.iter().map(|&p| plane.flat(p));
+    pub fn under(chart: Chart, points: &[DVec3], margin: f64) -> Plate {
+        let flats = || points.iter().map(|&p| chart.flat(p));
         let low = flats().reduce(DVec2::min).unwrap_or(DVec2::ZERO);
         let high = flats().reduce(DVec2::max).unwrap_or(DVec2::ONE);
         let size = (high - low).max_element();
         let margin = DVec2::splat(margin * size);
         Plate {
-            plane,
+            chart,
             low: low - margin,
             high: high + margin,
             thickness: 0.045 * size,
@@ -78,26 +82,36 @@ impl Plate {
         }
     }
 
-    /// Corners of the top, for fitting the camera.
-    pub fn corners(&self) -> [DVec3; 4] {
-        let [l, h] = [self.low, self.high];
-        [l, DVec2::new(h.x, l.y), h, DVec2::new(l.x, h.y)].map(|c| self.plane.at(c, 0.0))
+    /// The rim of the plate at this height, along both edges: for fitting the camera.
+    fn rims(&self, height: f64) -> [Vec<DVec3>; 2] {
+        [self.low.y, self.high.y].map(|y| {
+            let steps = self.chart.steps(self.low.x, self.high.x);
+            steps.into_iter().map(|x| self.chart.at(DVec2::new(x, y), height)).collect()
+        })
     }
 
-    /// Corners of the bottom.
-    pub fn foot(&self) -> [DVec3; 4] {
-        self.corners().map(|c| c - self.plane.normal * self.thickness)
+    /// Points that a picture of the plate must hold.
+    pub fn outline(&self) -> Vec<DVec3> {
+        [self.rims(0.0), self.rims(-self.thickness)].concat().concat()
     }
 
     /// Draws the plate; seen from below only its grid, so that the body stays visible.
     pub fn draw(&self, camera: &Camera, unit: f64, geometry: &mut Geometry) {
-        let facing = self.plane.normal.dot(camera.towards_eye());
+        let middle = self.chart.at(0.5 * (self.low + self.high), 0.0);
+        let facing = self.chart.axes(middle).normal.dot(camera.towards_eye());
         if facing > -1e-6 {
-            let (top, foot) = (self.corners(), self.foot());
-            quad(&mut geometry.plain, camera, top, [linear(TOP); 4]);
-            for c in 0..4 {
-                let n = (c + 1) % 4;
-                quad(&mut geometry.plain, camera, [foot[c], foot[n], top[n], top[c]], [linear(SIDE); 4]);
+            let ([near, far], [near_foot, far_foot]) = (self.rims(0.0), self.rims(-self.thickness));
+            let last = near.len() - 1;
+            let mut side = |corners| quad(&mut geometry.plain, camera, corners, [linear(SIDE); 4]);
+            for i in 0..last {
+                side([near_foot[i], near_foot[i + 1], near[i + 1], near[i]]);
+                side([far_foot[i + 1], far_foot[i], far[i], far[i + 1]]);
+            }
+            side([near_foot[last], far_foot[last], far[last], near[last]]);
+            side([far_foot[0], near_foot[0], near[0], far[0]]);
+            for i in 0..last {
+                let top = [near[i], near[i + 1], far[i + 1], far[i]];
+                quad(&mut geometry.plain, camera, top, [linear(TOP); 4]);
             }
         }
         for (line, mut colour, width) in self.grid() {
@@ -112,15 +126,21 @@ impl Plate {
 
     /// Grid lines at round coordinates, and the border.
     fn grid(&self) -> Vec<([DVec3; 2], [f32; 4], f64)> {
-        let at = |x: f64, y: f64| self.plane.at(DVec2::new(x, y), 0.0);
-        let quiet = ink(GRID, 0.8);
+        let at = |x: f64, y: f64| self.chart.at(DVec2::new(x, y), 0.0);
+        let (quiet, border) = (ink(GRID, 0.8), ink(GRID, 1.0));
         let (low, high) = (self.low, self.high);
-        let columns = round_values(low.x, high.x, self.spacing).into_iter();
-        let rows = round_values(low.y, high.y, self.spacing).into_iter();
-        let mut lines: Vec<_> = columns.map(|x| ([at(x, low.y), at(x, high.y)], quiet, 1.0)).collect();
-        lines.extend(rows.map(|y| ([at(low.x, y), at(high.x, y)], quiet, 1.0)));
-        let corners = self.corners();
-        lines.extend((0..4).map(|c| ([corners[c], corners[(c + 1) % 4]], ink(GRID, 1.0), 1.5)));
+        let across = |x: f64| [at(x, low.y), at(x, high.y)];
+        let along = |y: f64| {
+            let points: Vec<DVec3> = self.chart.steps(low.x, high.x).into_iter().map(|x| at(x, y)).collect();
+            points.windows(2).map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>()
+        };
+        let mut lines = Vec::new();
+        let columns = round_values(low.x, high.x, self.spacing);
+        lines.extend(columns.into_iter().map(|x| (across(x), quiet, 1.0)));
+        let rows = round_values(low.y, high.y, self.spacing);
+        lines.extend(rows.into_iter().flat_map(along).map(|line| (line, quiet, 1.0)));
+        lines.extend([low.x, high.x].map(|x| (across(x), border, 1.5)));
+        lines.extend([low.y, high.y].into_iter().flat_map(along).map(|line| (line, border, 1.5)));
         lines
     }
 }

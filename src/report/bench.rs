@@ -4,6 +4,7 @@ use crate::Result;
 use crate::cpu::{self, Precision};
 use crate::engine::{Engine, StageSetup, Step};
 use crate::model::Model;
+use crate::physics::friction::Coulomb;
 use crate::physics::material::NeoHookean;
 use crate::record::{Sample, Snapshot};
 use crate::run::{self, Observer, Progress, Totals};
@@ -26,7 +27,7 @@ pub const HELD: RimMotion = RimMotion {
 };
 
 /// The road z = 0 at rest.
-pub const GROUND: Road = Road::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [0.0; 3] };
+pub use crate::scene::GROUND;
 
 /// A body of rubber (`q1p0`) in empty space with one explicit stage of 1 ms.
 pub fn scene(mesh: MeshSpec) -> Scene {
@@ -88,7 +89,7 @@ pub fn wheel(elements: [usize; 3], mu: f64) -> Scene {
         scene(MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements });
     scene.rim = Some(Rim { nodes: NodeSet::Inner });
     scene.road = Some(GROUND);
-    scene.friction = (mu > 0.0).then_some(Friction::Coulomb { mu });
+    scene.friction = (mu > 0.0).then_some(Friction::Coulomb(Coulomb { mu }));
     scene.stages.clear();
     scene
 }

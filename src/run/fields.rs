@@ -58,11 +58,11 @@ fn contact_nodes(
     window: &Window,
     friction_energy: &[f64],
 ) -> Vec<ContactNode> {
-    let Road::Plane { normal, velocity, .. } = *road;
     let areas = contact_areas(&model.mesh, |n| state.x[n as usize], road, |_| true);
     let node = |(k, ((&node, sum), area)): (usize, ((&u32, &crate::engine::SurfaceSum), f64))| {
         // Before the first window there is no impulse and no time.
         let force = sum.impulse.map(|i| if length > 0.0 { i / length } else { 0.0 });
+        let (normal, velocity) = (road.normal(sum.x), road.velocity(sum.x));
         let relative = sub(sum.v, velocity);
         let slip = sub(relative, scale(normal, dot(relative, normal)));
         let touched = sum.touching > 0;

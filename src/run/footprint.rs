@@ -49,12 +49,11 @@ impl Footprint {
         let touches = |k: usize| 2 * u64::from(w.surface[k].touching) >= w.steps;
         let found = extents(&model.mesh, at, road, touches, road_axes(road, &w.rim));
         (0..2).for_each(|d| self.extents[d] += length * found[d]);
-        let Road::Plane { normal, .. } = road;
         // While the node touches, as in the mean pressure: over the whole window a node that touches for a part of
         // it would seem to carry less than it does.
         let pressure = |(s, area): (&SurfaceSum, &f64)| {
             let held = length * share(s) * area;
-            if held > 0.0 { dot(s.impulse, *normal) / held } else { 0.0 }
+            if held > 0.0 { dot(s.impulse, road.normal(s.x)) / held } else { 0.0 }
         };
         self.peak += length * sums().map(pressure).fold(0.0, f64::max);
     }
@@ -80,15 +79,9 @@ pub fn part(mesh: &MeshSpec, spin: f64) -> f64 {
     }
 }
 
-/// Unit vectors in the road: along the wheel's heading, and to its left.
+/// Unit vectors along the road below the axle: along the wheel's heading, and to its left.
 pub fn road_axes(road: &Road, rim: &rim::Coordinates) -> [[f64; 3]; 2] {
-    let Road::Plane { normal, .. } = *road;
-    let normal = glam::DVec3::from(normal);
-    // The axle is square to the heading; where it stands on end, x is taken.
-    let across = rim::axle_direction(rim);
-    let heading = Some(across.cross(normal)).filter(|h| h.length() > 1e-6).unwrap_or(glam::DVec3::X);
-    let heading = heading.reject_from(normal).normalize_or(glam::DVec3::X);
-    [heading.to_array(), normal.cross(heading).to_array()]
+    road.axes(rim::axle(rim).into(), rim::axle_direction(rim).into())
 }
 
 #[cfg(test)]

@@ -12,8 +12,6 @@ use crate::implicit::increments::Increments;
 use crate::implicit::problem::Problem;
 use crate::implicit::{self, Failure, Iteration, Limits, Newton, Scheme, Simulation, Target};
 use crate::model::Model;
-use crate::physics::friction::Coulomb;
-use crate::physics::road::Plane;
 use crate::record::NewtonRow;
 use crate::scene::{Drive, Friction, Implicit, ImplicitScheme, Road, Stage};
 
@@ -81,8 +79,7 @@ impl<'a> Run<'a> {
     /// When the stage ends: with the ramps of a static one, if nothing moves on.
     fn implicit_end(&self, stage: &Stage, settings: &Implicit, start: f64) -> f64 {
         let moves = |d: &Drive| matches!(d, Drive::Velocity { to, .. } if *to != 0.0);
-        let road_moves = self.scene.friction.is_some()
-            && self.scene.road.is_some_and(|Road::Plane { velocity, .. }| velocity != [0.0; 3]);
+        let road_moves = self.scene.friction.is_some() && self.scene.road.is_some_and(|road| road.moves());
         let settled = self.motion.settled_after();
         match settings.scheme {
             ImplicitScheme::Static { .. } if !road_moves && !stage.rim.drives().iter().any(moves) => {
@@ -209,15 +206,11 @@ impl<'a> Run<'a> {
 }
 
 fn surface(road: Option<&Road>, friction: Option<Friction>, model: &Model) -> Option<Surface> {
-    let Road::Plane { point, normal, velocity } = *road?;
     let reach = model.mesh.nodes.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
-    Some(Surface {
-        road: Plane::new(point, normal, velocity, [0.0; 3]),
-        // Other laws were refused before the run.
-        friction: friction.and_then(|law| match law {
-            Friction::Coulomb { mu } => Some(Coulomb { mu }),
-            _ => None,
-        }),
+    road.map(|&road| Surface {
+        road,
+        friction,
+        inverse_area: Vec::new(),
         dt: 0.0,
         // A few units in the last place of a position.
         touch: 16.0 * f64::EPSILON * reach,

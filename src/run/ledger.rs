@@ -4,7 +4,6 @@ use super::chatter;
 use super::footprint::Footprint;
 use crate::engine::{Window, Works};
 use crate::physics::rim;
-use crate::physics::tensor::dot;
 use crate::record::Sample;
 use crate::scene::Road;
 
@@ -28,6 +27,8 @@ pub struct Ledger {
     pub worst_gap: f64,
     /// Energy that friction has dissipated at every surface node [J] (empty before the first window with a road).
     pub friction_energy: Vec<f64>,
+    /// Work that the road's motion has put in [J].
+    pub road_work: f64,
 }
 
 /// Where and when a window ends.
@@ -42,11 +43,11 @@ pub struct WindowEnd {
 
 impl Ledger {
     /// Adds what friction dissipates at each node: the road's tangential work on the body, less what the road puts in.
-    fn book_friction(&mut self, road: Option<&Road>, w: &Window) {
-        let Some(Road::Plane { velocity, .. }) = road else { return };
+    fn book_friction(&mut self, w: &Window) {
         self.friction_energy.resize(w.surface.len(), 0.0);
         for (energy, sum) in self.friction_energy.iter_mut().zip(&w.surface) {
-            *energy += dot(sum.impulse, *velocity) - sum.friction_work;
+            *energy += sum.road_work - sum.friction_work;
+            self.road_work += sum.road_work;
         }
     }
 
@@ -66,7 +67,7 @@ impl Ledger {
     pub fn row(&mut self, road: Option<&Road>, end: &WindowEnd, w: &Window, footprint: &Footprint) -> Sample {
         debug_assert!(self.started);
         self.works.accumulate(&w.works);
-        self.book_friction(road, w);
+        self.book_friction(w);
         (self.kinetic, self.mixed_kinetic) = (w.kinetic, w.probe.mixed_kinetic);
         let works = &self.works;
         let outer = works.without_internal();
@@ -112,6 +113,7 @@ impl Ledger {
             hourglass_J: w.hourglass,
             external_work_J: works.rim + works.body_force,
             friction_work_J: works.friction,
+            road_work_J: self.road_work,
             contact_work_J: works.normal,
             damping_work_J: works.damping,
             viscous_work_J: works.viscous,
@@ -140,7 +142,6 @@ fn count_contact(row: &mut Sample, w: &Window) {
 }
 
 fn lowest_gap(road: Option<&Road>, w: &Window) -> Option<f64> {
-    let Some(Road::Plane { point, normal, .. }) = road else { return None };
-    let gap = |x: &[f64; 3]| (0..3).map(|d| normal[d] * (x[d] - point[d])).sum::<f64>();
-    w.surface.iter().map(|s| gap(&s.x)).min_by(f64::total_cmp)
+    let road = road?;
+    w.surface.iter().map(|s| road.gap(s.x)).min_by(f64::total_cmp)
 }

@@ -299,7 +299,7 @@ impl<'a> Run<'a> {
             Drive::Displacement { to, .. } => to,
             _ => self.rim[STEER],
         };
-        let speed = stage.heading_speed(self.scene.road.as_ref(), steer);
+        let speed = stage.heading_speed(self.scene.road.as_ref(), rim::axle(&self.rim).into(), steer);
         let radius = slip.free_radius.or(self.totals.free_radius).ok_or_else(|| Error::NotSettled {
             stage: stage.name.clone(),
             detail:
@@ -331,7 +331,8 @@ impl<'a> Run<'a> {
 
     /// Keeps the free-rolling radius of a stage whose rim has spun freely without a moment.
     fn measure_free_radius(&mut self, stage: &Stage) {
-        let speed = stage.heading_speed(self.scene.road.as_ref(), self.rim[STEER]);
+        let speed =
+            stage.heading_speed(self.scene.road.as_ref(), rim::axle(&self.rim).into(), self.rim[STEER]);
         if let Some(rate) = self.chatter.spin_rate().filter(|w| *w * speed > 0.0 && stage.rolls_freely()) {
             self.totals.free_radius = Some(speed / rate);
         }

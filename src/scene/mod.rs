@@ -10,9 +10,15 @@ mod reader;
 mod units;
 
 pub use crate::physics::element::{Element, Lumping};
+pub use crate::physics::friction::Friction;
 pub use crate::physics::material::Law;
+pub use crate::physics::road::Road;
 
+use crate::physics::road::Plane;
 use std::path::PathBuf;
+
+/// The road that pictures show where a scene has none: z = 0, at rest.
+pub const GROUND: Road = Road::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [0.0; 3] });
 
 /// A simulation as its scene file describes it, in SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,13 +55,7 @@ impl Scene {
             what: format!("{}: {what} in an implicit stage", self.file.display()),
             instead: instead.into(),
         };
-        match self.friction {
-            _ if !self.holds.is_empty() => Some(error("[[hold]]", "use explicit stages")),
-            Some(Friction::Coulomb { .. }) | None => None,
-            Some(_) => {
-                Some(error("friction other than Coulomb's", "use law = \"coulomb\" or explicit stages"))
-            }
-        }
+        (!self.holds.is_empty()).then(|| error("[[hold]]", "use explicit stages"))
     }
 }
 
@@ -147,34 +147,6 @@ pub enum NodeSet {
     ZMax,
 }
 
-/// Rigid roads.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Road {
-    /// The half-space below `point` with outward unit `normal`, moving with `velocity` in its own plane [m/s].
-    Plane { point: [f64; 3], normal: [f64; 3], velocity: [f64; 3] },
-}
-
-/// Friction laws.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Friction {
-    /// Constant coefficient mu > 0 (mu = 0 is read as frictionless: `Scene::friction = None`).
-    Coulomb { mu: f64 },
-    /// mu = slope v [s/m]: a lubricant; never sticks.
-    Viscous { slope: f64 },
-    /// mu = kinetic + (still - kinetic) exp(-(v/speed)^2) + slope v (Armstrong-Helouvry's form of Stribeck's curve).
-    Stribeck { still: f64, kinetic: f64, speed: f64, slope: f64 },
-    /// mu = a + b exp(-p/pressure) + c exp(-v/speed), p [Pa] a node's normal force over its area: a fit of tests of
-    /// tread rubber. mu >= 0 at every p and v.
-    PressureVelocity { a: f64, b: f64, pressure: f64, c: f64, speed: f64 },
-}
-
-impl Friction {
-    /// Whether the coefficient depends on pressure, so that nodes need areas.
-    pub fn needs_area(&self) -> bool {
-        matches!(self, Friction::PressureVelocity { .. })
-    }
-}
-
 /// A part of the simulation with its own rim motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
@@ -202,15 +174,16 @@ pub struct Slip {
 }
 
 impl Stage {
-    /// Speed over the road that the stage's velocities come to, along the heading of a wheel at the steer angle `steer`.
-    pub fn heading_speed(&self, road: Option<&Road>, steer: f64) -> f64 {
-        let Some(Road::Plane { velocity, .. }) = road else { return 0.0 };
+    /// Speed over the road that the stage's velocities come to, along the heading of a wheel at the steer angle `steer`;
+    /// `axle`: where it is over the road [m].
+    pub fn heading_speed(&self, road: Option<&Road>, axle: [f64; 3], steer: f64) -> f64 {
+        let Some(road) = road else { return 0.0 };
         let rate = |drive: Drive| match drive {
             Drive::Velocity { to, .. } => to,
             _ => 0.0,
         };
-        let (sin, cos) = steer.sin_cos();
-        (rate(self.rim.x) - velocity[0]) * cos + (rate(self.rim.y) - velocity[1]) * sin
+        let ([x, y, _], (sin, cos)) = (road.velocity(axle), steer.sin_cos());
+        (rate(self.rim.x) - x) * cos + (rate(self.rim.y) - y) * sin
     }
 
     /// Whether the rim spins freely and without a moment.

@@ -5,9 +5,11 @@ use hexroll::cpu::{self, Precision};
 use hexroll::engine::{Engine, StageSetup, Step, Window};
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
+use hexroll::physics::friction::Coulomb;
 use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
 use hexroll::record::{Sample, Snapshot};
 use hexroll::run::{Observer, Progress, Totals};
+pub use hexroll::scene::GROUND;
 use hexroll::scene::*;
 
 /// The paper's rubber: rho [kg/m3], G and kappa [Pa].
@@ -36,7 +38,6 @@ pub const HELD: RimMotion = RimMotion {
     spin: Drive::Hold,
 };
 /// The road z = 0 at rest.
-pub const GROUND: Road = Road::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [0.0; 3] };
 
 /// A body of rubber (`q1p0`) in empty space with one explicit stage of 1 ms; tests set the fields they care about.
 pub fn scene(mesh: MeshSpec) -> Scene {
@@ -98,7 +99,7 @@ pub fn wheel(elements: [usize; 3], mu: f64) -> Scene {
         scene(MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements });
     scene.rim = Some(Rim { nodes: NodeSet::Inner });
     scene.road = Some(GROUND);
-    scene.friction = (mu > 0.0).then_some(Friction::Coulomb { mu });
+    scene.friction = (mu > 0.0).then_some(Friction::Coulomb(Coulomb { mu }));
     scene.stages.clear();
     scene
 }

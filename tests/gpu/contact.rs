@@ -4,6 +4,7 @@ use crate::rig::{Plan, Who, dot, engine, note, safe_step, scene};
 use hexroll::engine::{State, Step, Window};
 use hexroll::gpu::Gpu;
 use hexroll::model::Model;
+use hexroll::physics::road::Plane;
 use hexroll::scene::{Road, Scene};
 
 /// Half the distance of neighbouring f32 numbers at 40 mm, the size of the block: what one rounding of a coordinate
@@ -34,7 +35,7 @@ fn track(gpu: &Gpu, who: Who, model: &Model, scene: &Scene, plan: &Plan) -> Trac
 }
 
 fn plane(scene: &Scene) -> ([f64; 3], [f64; 3]) {
-    let Some(Road::Plane { point, normal, .. }) = scene.road else { panic!("no road") };
+    let Some(Road::Plane(Plane { point, normal, .. })) = scene.road else { panic!("no road") };
     (point, normal)
 }
 

@@ -5,6 +5,7 @@ use hexroll::Error;
 use hexroll::engine::Engine;
 use hexroll::gpu::{Gpu, GpuEngine, Precision, advance_together, ensemble};
 use hexroll::model::Model;
+use hexroll::physics::friction::PressureVelocity;
 use hexroll::scene::{Friction, Scene};
 
 /// A body and what it does.
@@ -30,7 +31,13 @@ fn bodies() -> Vec<Body> {
         body
     };
     let pressed = |mut body: Body| {
-        let law = Friction::PressureVelocity { a: 0.3, b: 0.4, pressure: 2e5, c: 0.3, speed: 0.5 };
+        let law = Friction::PressureVelocity(PressureVelocity {
+            a: 0.3,
+            b: 0.4,
+            pressure: 2e5,
+            c: 0.3,
+            speed: 0.5,
+        });
         body.scene.friction = Some(law);
         body
     };

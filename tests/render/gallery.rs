@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use hexroll::model::mesh::Mesh;
+use hexroll::physics::road::Plane;
 use hexroll::record::{ContactNode, ContactState};
 use hexroll::render::{
     BodyView, ColourMap, FootprintColour, FootprintStyle, FootprintView, Projection, Range, Renderer, View,
@@ -51,7 +52,7 @@ pub fn gallery(renderer: &mut Renderer) {
 /// A block of ten millimetres on a slope, and one of a metre.
 fn slope(renderer: &mut Renderer, save: &dyn Fn(&str, RgbaImage)) {
     let (sin, cos) = 20.0_f64.to_radians().sin_cos();
-    let road = Road::Plane { point: [0.0; 3], normal: [-sin, 0.0, cos], velocity: [0.0; 3] };
+    let road = Road::Plane(Plane { point: [0.0; 3], normal: [-sin, 0.0, cos], velocity: [0.0; 3] });
     for (name, size, elements) in [("block_10mm", 0.01, [12, 8, 4]), ("block_1m", 1.0, [60, 40, 20])] {
         let spec = MeshSpec::Block { size: [size, 0.7 * size, 0.35 * size], elements };
         let mesh = Mesh::generate(&spec, [0.0; 3], None);

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
+use hexroll::physics::friction::{Coulomb, PressureVelocity, Stribeck, Viscous};
 use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
+use hexroll::physics::road::Plane;
 use hexroll::scene::{
     Body, Drive, Element, Field, Friction, Hold, InitialVelocity, Law, MeshSpec, Method, NodeSet, Picture,
     Rim, Road, Scene, Snapshots,
@@ -32,8 +34,8 @@ fn a_scene_is_read_whole_and_in_si() {
     assert_eq!(elements, [12, 2, 2]);
     assert_eq!(scene.rim, Some(Rim { nodes: NodeSet::Inner }));
     let (normal, velocity) = ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0]);
-    assert_eq!(scene.road, Some(Road::Plane { point: [0.0; 3], normal, velocity }));
-    assert_eq!((scene.friction, scene.safety), (Some(Friction::Coulomb { mu: 0.8 }), 0.8));
+    assert_eq!(scene.road, Some(Road::Plane(Plane { point: [0.0; 3], normal, velocity })));
+    assert_eq!((scene.friction, scene.safety), (Some(Friction::Coulomb(Coulomb { mu: 0.8 })), 0.8));
     assert_eq!(scene.output.pictures, [Picture::Body(Field::VonMises), Picture::Footprint]);
     assert_eq!((scene.output.sample, scene.output.snapshots), (0.001, Snapshots::Every(0.01)));
 }
@@ -112,7 +114,7 @@ fn zero_viscosity_and_zero_friction_are_absent() {
 fn a_road_normal_has_length_one_whatever_is_written() {
     for scale in [1e-200, 1.0, 3.0, 1e200] {
         let set = format!("road.normal=[0, {:e}, {:e}]", -3.0 * scale, 4.0 * scale);
-        let Some(Road::Plane { normal, .. }) = good(&[&set]).unwrap().road else { panic!("a plane") };
+        let Some(Road::Plane(Plane { normal, .. })) = good(&[&set]).unwrap().road else { panic!("a plane") };
         near(normal[1], -0.6);
         near(normal[2], 0.8);
     }
@@ -137,19 +139,23 @@ fn holds_gradings_and_friction_laws_are_read() {
     assert_eq!(scene.holds, [Hold { nodes: NodeSet::All, components: [false, true, false] }]);
     assert_eq!(scene.body.grading.ratio, [4.0, 0.5, 1.0]);
     near(scene.body.grading.fine_arc, std::f64::consts::FRAC_PI_2);
-    let Some(Friction::PressureVelocity { a, b, pressure, c, speed }) = scene.friction else {
+    let Some(Friction::PressureVelocity(PressureVelocity { a, b, pressure, c, speed })) = scene.friction
+    else {
         panic!("the fit")
     };
     for (got, expected) in [(a, 0.5), (b, 0.6), (pressure, 3e5), (c, 0.3), (speed, 0.5)] {
         near(got, expected);
     }
     let law = |text: &str| good(&[text]).unwrap().friction;
-    let Some(Friction::Viscous { slope }) = law("friction={ law = \"viscous\", slope = \"2 s/m\" }") else {
+    let Some(Friction::Viscous(Viscous { slope })) = law("friction={ law = \"viscous\", slope = \"2 s/m\" }")
+    else {
         panic!("viscous")
     };
     near(slope, 2.0);
     let text = "friction={ law = \"stribeck\", static = 1.2, kinetic = 0.8, speed = \"100 mm/s\" }";
-    let Some(Friction::Stribeck { still, kinetic, speed, slope }) = law(text) else { panic!("Stribeck") };
+    let Some(Friction::Stribeck(Stribeck { still, kinetic, speed, slope })) = law(text) else {
+        panic!("Stribeck")
+    };
     for (got, expected) in [(still, 1.2), (kinetic, 0.8), (speed, 0.1), (slope, 0.0)] {
         near(got, expected);
     }

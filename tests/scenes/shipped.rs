@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use hexroll::Error;
+use hexroll::physics::friction::Coulomb;
 use hexroll::physics::material::NeoHookean;
+use hexroll::physics::road::Plane;
 use hexroll::scene::{
     Drive, Element, Friction, ImplicitScheme, InitialVelocity, Law, MeshSpec, Method, NodeSet, Rim, Road,
     Scene,
@@ -61,9 +63,9 @@ fn every_wheel_is_the_papers() {
         let Law::NeoHookean(NeoHookean { g0, g1 }) = scene.body.law else { panic!("{stem}: another law") };
         assert_eq!((g0.round(), g1.round(), scene.body.density), (65.1e6, 2.64e6, 1100.0), "{stem}");
         assert_eq!((scene.body.element, scene.body.viscosity), (Element::Q1p0, eta), "{stem}");
-        assert_eq!(scene.friction, Some(Friction::Coulomb { mu }), "{stem}");
+        assert_eq!(scene.friction, Some(Friction::Coulomb(Coulomb { mu })), "{stem}");
         assert_eq!((scene.gravity, scene.rim), ([0.0; 3], Some(Rim { nodes: NodeSet::Inner })), "{stem}");
-        let rest = Road::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [0.0; 3] };
+        let rest = Road::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [0.0; 3] });
         assert_eq!(scene.road, Some(rest), "{stem}");
         // Into equilibrium by the implicit scheme, or relaxed by damped steps.
         match scene.stages[0].method {

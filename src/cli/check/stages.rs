@@ -6,8 +6,7 @@ use super::Piece;
 use crate::cli::estimate::Steps;
 use crate::cli::format::si;
 use crate::scene::{
-    Drive, Field, Friction, ImplicitScheme, InitialVelocity, Method, Picture, RimMotion, Road, Scene, Slip,
-    Snapshots, Stage,
+    Drive, Field, ImplicitScheme, InitialVelocity, Method, Picture, RimMotion, Scene, Slip, Snapshots, Stage,
 };
 
 /// A stage as it will run.
@@ -94,8 +93,8 @@ pub fn pieces(scene: &Scene) -> Vec<Piece> {
         piece("mass damping", (!damped.is_empty()).then(|| format!("in stage {}", damped.join(", ")))),
         piece("gravity", (scene.gravity != [0.0; 3]).then(|| format!("{:?} m/s2", scene.gravity))),
         piece("held components", (!scene.holds.is_empty()).then(|| holds(scene))),
-        piece("road", scene.road.map(road)),
-        piece("friction", scene.friction.map(friction)),
+        piece("road", scene.road.map(|road| road.description())),
+        piece("friction", scene.friction.map(|law| law.formula())),
         piece(
             "rim",
             scene
@@ -113,28 +112,6 @@ fn holds(scene: &Scene) -> String {
         format!("{names} of {}", super::body::set_name(h.nodes))
     };
     scene.holds.iter().map(hold).collect::<Vec<_>>().join(", ")
-}
-
-fn friction(law: Friction) -> String {
-    match law {
-        Friction::Coulomb { mu } => format!("Coulomb, mu = {mu}, stick and slip"),
-        Friction::Viscous { slope } => format!("viscous, mu = {slope} s/m v"),
-        Friction::Stribeck { still, kinetic, speed, slope } => {
-            format!(
-                "Stribeck, mu = {kinetic} + {:.3} exp(-(v/{speed} m/s)^2) + {slope} s/m v",
-                still - kinetic
-            )
-        }
-        Friction::PressureVelocity { a, b, pressure, c, speed } => {
-            format!("mu = {a} + {b} exp(-p/{pressure} Pa) + {c} exp(-v/{speed} m/s)")
-        }
-    }
-}
-
-fn road(Road::Plane { point, normal, velocity }: Road) -> String {
-    let moving =
-        if velocity == [0.0; 3] { "at rest".into() } else { format!("moving with {velocity:?} m/s") };
-    format!("rigid plane through {point:?} m, normal {normal:?}, {moving}")
 }
 
 /// What a run would write.

@@ -13,7 +13,6 @@ use crate::implicit::krylov::LinearSolver;
 use crate::implicit::matrix::{axpy, dot, times, transposed};
 use crate::implicit::newton::Failure;
 use crate::implicit::system::System;
-use crate::physics::road::Road;
 use crate::physics::tensor::{self, Vec3, add, sub};
 
 /// Sweeps between two corrections: forward and backward.
@@ -161,7 +160,7 @@ impl Sweep<'_> {
     fn slipping(&self, surface: &Surface, k: usize) -> (f64, [f64; 2]) {
         let n = self.problem.model.mesh.surface[k] as usize;
         let x = add(self.at.x[n], self.d[n]);
-        let node = surface.local(self.inc.start[n], x, self.force[k], 1.0);
+        let node = surface.local(k, self.inc.start[n], x, self.force[k], 1.0);
         (node.tangential[0].hypot(node.tangential[1]), node.slip)
     }
 

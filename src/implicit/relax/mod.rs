@@ -174,6 +174,7 @@ impl<'a> Sweep<'a> {
             stiffness: self.matrix.diagonal(i),
             inverse: &self.inverses[i],
             b,
+            surface_index: k as usize,
             x: self.at.x[i],
             start: self.inc.start[i],
         };

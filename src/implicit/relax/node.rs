@@ -2,8 +2,6 @@
 
 use crate::implicit::contact::{Status, Surface, frame};
 use crate::implicit::matrix::{Block, product, times, transposed};
-use crate::physics::friction::{Friction, Sliding};
-use crate::physics::road::Road;
 use crate::physics::tensor::{Vec3, add, sub};
 
 /// K d = b + f with the contact law between d and f.
@@ -11,6 +9,8 @@ pub struct NodeProblem<'a> {
     pub stiffness: &'a Block,
     pub inverse: &'a Block,
     pub b: Vec3<f64>,
+    /// Its index among the surface nodes.
+    pub surface_index: usize,
     /// Position before the correction, and at the start of the increment.
     pub x: Vec3<f64>,
     pub start: Vec3<f64>,
@@ -25,14 +25,13 @@ impl NodeProblem<'_> {
         if surface.road.gap(add(self.x, relaxed)) >= 0.0 {
             return free;
         }
-        let node = surface.local(self.start, self.x, [0.0; 3], 1.0);
+        let node = surface.local(self.surface_index, self.start, self.x, [0.0; 3], 1.0);
         let to_space = transposed(&node.frame);
         let stuck = times(&to_space, [-node.gap, -node.slip[0], -node.slip[1]]);
         if surface.friction.is_some() {
             let f = sub(times(self.stiffness, stuck), self.b);
             let [n, t1, t2] = times(&node.frame, f);
-            let sliding = Sliding { normal_force: n.max(0.0), slip_speed: 0.0 };
-            let mu = surface.friction.map_or(0.0, |law| law.coefficient(sliding));
+            let mu = surface.mu(self.surface_index, n, 0.0);
             if n > 0.0 && t1.hypot(t2) <= mu * n {
                 return (stuck, f, Status::Stick);
             }
@@ -61,9 +60,7 @@ impl NodeProblem<'_> {
             u = if l > 0.0 { u.map(|c| c / l) } else { [0.0; 2] };
             // (A + mu u k^T) s = b_t + mu u b_n, with N = k . s - b_n
             let k = [local[0][1], local[0][2]];
-            let sliding =
-                Sliding { normal_force: f64::max(normal, 0.0), slip_speed: s[0].hypot(s[1]) / surface.dt };
-            let mu = surface.friction.map_or(0.0, |law| law.coefficient(sliding));
+            let mu = surface.mu(self.surface_index, normal, s[0].hypot(s[1]) / surface.dt);
             let m =
                 [[a + mu * u[0] * k[0], c + mu * u[0] * k[1]], [c + mu * u[1] * k[0], d + mu * u[1] * k[1]]];
             let rhs = [b[1] + mu * u[0] * b[0], b[2] + mu * u[1] * b[0]];

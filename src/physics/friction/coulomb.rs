@@ -1,16 +1,32 @@
-use super::{Friction, Sliding};
+use super::{FrictionLaw, Sliding};
+use crate::physics::parameters::parameters;
 use crate::physics::scalar::Real;
 
-/// Constant coefficient: |fT| <= mu |fN| (eq. 10).
-#[derive(Debug, Clone, Copy)]
-pub struct Coulomb<S> {
-    pub mu: S,
+parameters! {
+    /// Constant coefficient: |fT| <= mu |fN| (eq. 10).
+    pub struct Coulomb("coulomb", constants "friction_") {
+        /// mu.
+        mu "coefficient": Number, NotNegative;
+    }
 }
 
-impl<S: Real> Friction<S> for Coulomb<S> {
+impl FrictionLaw for Coulomb {
     const CONSTANT: bool = true;
+
     #[inline(always)]
-    fn coefficient(&self, _sliding: Sliding<S>) -> S {
-        self.mu
+    fn coefficient<S: Real>(&self, _sliding: Sliding<S>) -> S {
+        S::from_f64(self.mu)
+    }
+
+    fn is_none(&self) -> bool {
+        self.mu == 0.0
+    }
+
+    fn formula(&self) -> String {
+        format!("Coulomb, mu = {}, stick and slip", self.mu)
+    }
+
+    fn example() -> Self {
+        Coulomb { mu: 0.8 }
     }
 }

@@ -1,16 +1,26 @@
+use super::{FrictionLaw, Sliding};
+use crate::physics::parameters::parameters;
 use crate::physics::scalar::Real;
 
-/// mu = slope v: a lubricant film, which holds nothing at rest.
-#[derive(Debug, Clone, Copy)]
-pub struct Viscous<S> {
-    /// [s/m]
-    pub slope: S,
+parameters! {
+    /// mu = slope v: a lubricant's film; never sticks.
+    pub struct Viscous("viscous", constants "friction_") {
+        /// mu over the slip speed.
+        slope "slope": Slowness, Positive;
+    }
 }
 
-impl<S: Real> Viscous<S> {
-    /// mu at a speed [m/s].
+impl FrictionLaw for Viscous {
     #[inline(always)]
-    pub fn coefficient(&self, speed: S) -> S {
-        self.slope * speed
+    fn coefficient<S: Real>(&self, sliding: Sliding<S>) -> S {
+        S::from_f64(self.slope) * sliding.slip_speed
+    }
+
+    fn formula(&self) -> String {
+        format!("viscous, mu = {} s/m v", self.slope)
+    }
+
+    fn example() -> Self {
+        Viscous { slope: 0.8 }
     }
 }

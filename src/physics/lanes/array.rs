@@ -84,6 +84,14 @@ impl<T: Real, const N: usize> Scalar for Array<T, N> {
     }
 
     #[inline(always)]
+    fn sqrt(mut self) -> Self {
+        for i in 0..N {
+            self.0[i] = self.0[i].sqrt();
+        }
+        self
+    }
+
+    #[inline(always)]
     fn ln(mut self) -> Self {
         for i in 0..N {
             self.0[i] = Scalar::ln(self.0[i]);

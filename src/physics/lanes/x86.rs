@@ -10,7 +10,7 @@ macro_rules! lanes {
     ($(#[$doc:meta])* $name:ident, $vector:ty, $real:ty, $width:literal,
      $set:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $fmadd:ident, $fnmadd:ident, $load:ident,
      $store:ident, $guess:ident, $min:ident, $not_positive:ident, $negative:ident, $fmsub:ident, $up:ident, $choose:ident,
-     $load_over:ident, $store_where:ident, $add_to:ident) => {
+     $load_over:ident, $store_where:ident, $add_to:ident, $sqrt:ident) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy)]
         #[repr(transparent)]
@@ -86,6 +86,10 @@ macro_rules! lanes {
             #[inline(always)]
             fn recip_cbrt(self) -> Self {
                 super::recip_cbrt_from(unsafe { $name($guess(self.0)) }, self, <$real as Real>::SINGLE)
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                unsafe { $name($sqrt(self.0)) }
             }
             #[inline(always)]
             fn ln(self) -> Self {
@@ -606,7 +610,7 @@ lanes!(
     _mm_set1_pd, _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, fmadd_f64_128, fnmadd_f64_128,
     _mm_loadu_pd, _mm_storeu_pd, guess_f64_128, min_f64_128, not_positive_f64_128, negative_f64_128,
     fmsub_f64_128, up_f64_128, choose_f64_128,
-    load_over_f64_128, store_where_f64_128, add_f64_128
+    load_over_f64_128, store_where_f64_128, add_f64_128, _mm_sqrt_pd
 );
 lanes!(
     /// Four f32, SSE2.
@@ -614,7 +618,7 @@ lanes!(
     _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps, fmadd_f32_128, fnmadd_f32_128,
     _mm_loadu_ps, _mm_storeu_ps, guess_f32_128, min_f32_128, not_positive_f32_128, negative_f32_128,
     fmsub_f32_128, up_f32_128, choose_f32_128,
-    load_over_f32_128, store_where_f32_128, add_f32_128
+    load_over_f32_128, store_where_f32_128, add_f32_128, _mm_sqrt_ps
 );
 lanes!(
     /// Eight f64, AVX-512.
@@ -622,7 +626,7 @@ lanes!(
     _mm512_set1_pd, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_fmadd_pd, _mm512_fnmadd_pd,
     _mm512_loadu_pd, _mm512_storeu_pd, guess_f64, min_f64, not_positive_f64, negative_f64,
     _mm512_fmsub_pd, up_f64, choose_f64,
-    load_over_f64, store_where_f64, add_f64
+    load_over_f64, store_where_f64, add_f64, _mm512_sqrt_pd
 );
 lanes!(
     /// Sixteen f32, AVX-512.
@@ -630,7 +634,7 @@ lanes!(
     _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_fmadd_ps, _mm512_fnmadd_ps,
     _mm512_loadu_ps, _mm512_storeu_ps, guess_f32, min_f32, not_positive_f32, negative_f32,
     _mm512_fmsub_ps, up_f32, choose_f32,
-    load_over_f32, store_where_f32, add_f32
+    load_over_f32, store_where_f32, add_f32, _mm512_sqrt_ps
 );
 lanes!(
     /// Four f64, AVX2 with FMA.
@@ -638,7 +642,7 @@ lanes!(
     _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_fmadd_pd, _mm256_fnmadd_pd,
     _mm256_loadu_pd, _mm256_storeu_pd, guess_f64_256, min_f64_256, not_positive_f64_256, negative_f64_256,
     _mm256_fmsub_pd, up_f64_256, choose_f64_256,
-    load_over_f64_256, store_where_f64_256, add_f64_256
+    load_over_f64_256, store_where_f64_256, add_f64_256, _mm256_sqrt_pd
 );
 lanes!(
     /// Eight f32, AVX2 with FMA.
@@ -646,5 +650,5 @@ lanes!(
     _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_fmadd_ps, _mm256_fnmadd_ps,
     _mm256_loadu_ps, _mm256_storeu_ps, guess_f32_256, min_f32_256, not_positive_f32_256, negative_f32_256,
     _mm256_fmsub_ps, up_f32_256, choose_f32_256,
-    load_over_f32_256, store_where_f32_256, add_f32_256
+    load_over_f32_256, store_where_f32_256, add_f32_256, _mm256_sqrt_ps
 );

@@ -1,44 +1,99 @@
-use super::Road;
-use crate::physics::lanes::Lanes;
-use crate::physics::scalar::Real;
-use crate::physics::tensor::{Vec3, dot, vec3};
+use super::Surface;
+use crate::physics::scalar::Scalar;
+use crate::physics::tensor::{Vec3, cross, dot, scale, sub, vec3};
 
-/// A half-space n . x < d, moving in its own plane.
-#[derive(Debug, Clone, Copy)]
-pub struct Plane<S> {
-    normal: Vec3<S>,
-    offset: S,
-    velocity: Vec3<S>,
+/// The half-space n . x < n . point, moving in its own plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// A point of the surface [m].
+    pub point: [f64; 3],
+    /// Outward unit normal.
+    pub normal: [f64; 3],
+    /// Velocity, square to the normal [m/s].
+    pub velocity: [f64; 3],
 }
 
-impl<S: Real> Plane<S> {
-    /// A plane through `point` with unit `normal`, seen from a frame whose origin is at `frame`.
-    pub fn new(point: [f64; 3], normal: [f64; 3], velocity: [f64; 3], frame: [f64; 3]) -> Self {
-        let offset: f64 = (0..3).map(|d| normal[d] * (point[d] - frame[d])).sum();
-        Plane { normal: vec3(normal), offset: S::from_f64(offset), velocity: vec3(velocity) }
+impl Plane {
+    /// n . point [m].
+    fn offset(&self) -> f64 {
+        (0..3).map(|d| self.normal[d] * self.point[d]).sum()
     }
-}
 
-impl<S: Real> Plane<S> {
-    /// The gap of several points at once.
-    #[inline(always)]
-    pub fn gap_in_lanes<N: Lanes<Real = S>>(&self, x: Vec3<N>) -> N {
-        let n = [N::splat(self.normal[0]), N::splat(self.normal[1]), N::splat(self.normal[2])];
-        dot(n, x) - N::splat(self.offset)
+    /// The point nearest to the origin [m]: where its coordinates are zero.
+    fn foot(&self) -> [f64; 3] {
+        scale(self.normal, self.offset())
     }
 }
 
-impl<S: Real> Road<S> for Plane<S> {
+impl Surface for Plane {
+    const NAME: &'static str = "plane";
+
     #[inline(always)]
-    fn gap(&self, x: Vec3<S>) -> S {
-        dot(self.normal, x) - self.offset
+    fn gap<S: Scalar>(&self, x: Vec3<S>) -> S {
+        dot(vec3(self.normal), x) - S::from_f64(self.offset())
     }
+
     #[inline(always)]
-    fn normal(&self, _x: Vec3<S>) -> Vec3<S> {
-        self.normal
+    fn normal<S: Scalar>(&self, _x: Vec3<S>) -> Vec3<S> {
+        vec3(self.normal)
     }
+
     #[inline(always)]
-    fn velocity(&self, _x: Vec3<S>) -> Vec3<S> {
-        self.velocity
+    fn velocity<S: Scalar>(&self, _x: Vec3<S>) -> Vec3<S> {
+        vec3(self.velocity)
+    }
+
+    fn moves(&self) -> bool {
+        self.velocity != [0.0; 3]
+    }
+
+    fn seen_from(&self, origin: [f64; 3]) -> Self {
+        Plane { point: sub(self.point, origin), ..*self }
+    }
+
+    /// Along the axes in it, where it is square to the third.
+    fn invariant(&self) -> [bool; 3] {
+        let along_axis = self.normal.iter().filter(|n| **n != 0.0).count() == 1;
+        self.normal.map(|n| along_axis && n == 0.0)
+    }
+
+    fn leaves_alone(&self, direction: usize) -> bool {
+        self.normal[direction] == 0.0 && self.velocity[direction] == 0.0
+    }
+
+    fn chart(&self, x: [f64; 3]) -> [f64; 2] {
+        let from_foot = sub(x, self.foot());
+        self.tangents(x).map(|t| dot(t, from_foot))
+    }
+
+    fn point(&self, chart: [f64; 2]) -> [f64; 3] {
+        let ([a, b], foot) = (self.tangents([0.0; 3]), self.foot());
+        std::array::from_fn(|d| foot[d] + chart[0] * a[d] + chart[1] * b[d])
+    }
+
+    /// x, or what is left of it in the plane, and what completes it.
+    fn tangents(&self, _x: [f64; 3]) -> [[f64; 3]; 2] {
+        let n = self.normal;
+        let start = if n[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+        let along = sub(start, scale(n, dot(start, n)));
+        let along = scale(along, 1.0 / dot(along, along).sqrt());
+        [along, cross(n, along)]
+    }
+
+    fn straight(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    fn constants(&self) -> Vec<(&'static str, f64)> {
+        let mut all = vec![("road_offset", self.offset())];
+        all.extend(["road_normal_x", "road_normal_y", "road_normal_z"].into_iter().zip(self.normal));
+        all.extend(["road_velocity_x", "road_velocity_y", "road_velocity_z"].into_iter().zip(self.velocity));
+        all
+    }
+
+    fn description(&self) -> String {
+        let Plane { point, normal, velocity } = self;
+        let moving = if self.moves() { format!("moving with {velocity:?} m/s") } else { "at rest".into() };
+        format!("rigid plane through {point:?} m, normal {normal:?}, {moving}")
     }
 }

@@ -1,6 +1,7 @@
 //! Runs at the default safety factor and at growing ones, until one fails.
 
 use crate::model::Model;
+use crate::physics::friction::Coulomb;
 use crate::physics::material::NeoHookean;
 use crate::report::bench::{GROUND, HELD, block, explicit, press, simulate_model, wheel};
 use crate::report::claim::short;
@@ -202,7 +203,7 @@ fn thrown(speed: f64, tumble: [f64; 3]) -> Scene {
     scene.body.angular_velocity = tumble;
     scene.body.viscosity = Some(20.0);
     scene.road = Some(GROUND);
-    scene.friction = Some(Friction::Coulomb { mu: 0.8 });
+    scene.friction = Some(Friction::Coulomb(Coulomb { mu: 0.8 }));
     scene.output.sample = 1e-4;
     scene.stages[0].duration = 0.03 / speed + 2e-3;
     scene
@@ -213,7 +214,7 @@ fn misshapen(elements: [usize; 3], shape: impl Fn([f64; 3]) -> [f64; 3]) -> Resu
     let mut scene = block([0.04, 0.02, 0.02], elements);
     scene.rim = Some(Rim { nodes: NodeSet::ZMax });
     scene.road = Some(GROUND);
-    scene.friction = Some(Friction::Coulomb { mu: 0.5 });
+    scene.friction = Some(Friction::Coulomb(Coulomb { mu: 0.5 }));
     scene.body.viscosity = Some(1.0);
     scene.output.sample = 1e-4;
     let z = Drive::Displacement { to: -2e-3, ramp: 3e-3 };

@@ -117,7 +117,7 @@ fn far() -> Result<Vec<Claim>> {
 fn named(elastic: &Outcome, viscous: &Outcome) -> Vec<Claim> {
     let verdict = |outcome: &Outcome| {
         let noise = outcome.totals.noise.last().and_then(Option::as_ref)?;
-        ContactScatter::of(noise, &GROUND, LIMIT)
+        ContactScatter::of(noise, GROUND.normal([0.0; 3]), LIMIT)
     };
     let share = |outcome: &Outcome| verdict(outcome).map_or(f64::NAN, |c| c.remaining_share);
     let chatters = |outcome: &Outcome| match verdict(outcome).map(|c| c.verdict) {

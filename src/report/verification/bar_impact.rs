@@ -5,6 +5,7 @@
 //! 4/3 G) / rho.
 
 use crate::Result;
+use crate::physics::road::Plane;
 use crate::report::bench::{DENSITY, G, KAPPA, block, hold, simulate};
 use crate::report::{Case, Claim};
 use crate::scene::{NodeSet, Road};
@@ -21,7 +22,7 @@ pub const CASE: Case = Case {
 
 const LENGTH: f64 = 0.1;
 const SPEED: f64 = 0.1;
-const WALL: Road = Road::Plane { point: [0.0; 3], normal: [1.0, 0.0, 0.0], velocity: [0.0; 3] };
+const WALL: Road = Road::Plane(Plane { point: [0.0; 3], normal: [1.0, 0.0, 0.0], velocity: [0.0; 3] });
 
 fn once() -> Result<Vec<Claim>> {
     let count = 200;

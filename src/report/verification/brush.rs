@@ -5,6 +5,7 @@
 //! tan(alpha_m) = 3 mu Fz / C, C = 2 k a^2 w: Fy = mu Fz (3 s - 3 s^2 + s^3) up to s = 1, and mu Fz beyond.
 
 use crate::Result;
+use crate::physics::friction::Coulomb;
 use crate::physics::material::NeoHookean;
 use crate::report::bench::{G, GROUND, HELD, explicit, scene, simulate};
 use crate::report::{Case, Claim};
@@ -39,7 +40,7 @@ fn rolled(tangent: f64) -> Result<[f64; 2]> {
     scene.body.viscosity = Some(1.0);
     scene.rim = Some(Rim { nodes: NodeSet::Inner });
     scene.road = Some(GROUND);
-    scene.friction = Some(Friction::Coulomb { mu: MU });
+    scene.friction = Some(Friction::Coulomb(Coulomb { mu: MU }));
     scene.output.sample = 2e-4;
     let at = |to: f64| Drive::Velocity { to, ramp: 0.0 };
     let rim = RimMotion { x: at(1.0), y: at(tangent), spin: at(1.0 / (RADIUS - DEPTH / 3.0)), ..HELD };

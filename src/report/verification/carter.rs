@@ -10,6 +10,7 @@
 
 use super::cylinder::{RADIUS, STIFF, half_width, press, relaxing, slice};
 use crate::Result;
+use crate::physics::friction::Coulomb;
 use crate::record::Sample;
 use crate::report::bench::{HELD, explicit, simulate};
 use crate::report::{Case, Claim};
@@ -48,7 +49,7 @@ struct Rolled {
 /// Rolls at the spin (1 + `creep`) V / R, wound up to `start` of mu P.
 fn rolled(creep: f64, start: f64) -> Result<Rolled> {
     // Equal elements wherever the contact comes, and its own width on either side.
-    let mut scene = slice(STIFF, (2.0 * WAY + 0.005) / RADIUS, Some(Friction::Coulomb { mu: MU }));
+    let mut scene = slice(STIFF, (2.0 * WAY + 0.005) / RADIUS, Some(Friction::Coulomb(Coulomb { mu: MU })));
     // With less of it what slides chatters; eta V / (a G) = 0.006.
     scene.body.viscosity = Some(10.0);
     let at = |to: f64| Drive::Velocity { to, ramp: 0.0 };

@@ -8,6 +8,7 @@
 
 use super::cylinder::{EDGE, STIFF, WIDTH, half_width, press, relaxing, slice};
 use crate::Result;
+use crate::physics::friction::Coulomb;
 use crate::record::{ContactState, Snapshot};
 use crate::report::bench::{HELD, Outcome, simulate};
 use crate::report::{Case, Claim};
@@ -27,7 +28,7 @@ const MU: f64 = 0.3;
 const WAYS: [f64; 2] = [1.4e-5, 2.6e-5];
 
 fn run() -> Result<Vec<Claim>> {
-    let mut scene = slice(STIFF, 0.12, Some(Friction::Coulomb { mu: MU }));
+    let mut scene = slice(STIFF, 0.12, Some(Friction::Coulomb(Coulomb { mu: MU })));
     let push = |to: f64| {
         let aside = Drive::Displacement { to, ramp: 4e-3 };
         relaxing(&format!("{:.0} um", 1e6 * to), RimMotion { x: aside, ..HELD }, 0.02)

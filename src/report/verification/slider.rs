@@ -5,6 +5,8 @@
 //! faster than the fall of the curve slides steadily: no chatter (the slope of mu(v) decides, Heslot et al. 1994).
 
 use crate::Result;
+use crate::physics::friction::{PressureVelocity, Stribeck, Viscous};
+use crate::physics::road::Plane;
 use crate::report::bench::{GROUND, HELD, Outcome, block, explicit, simulate};
 use crate::report::{Case, Claim};
 use crate::scene::*;
@@ -43,7 +45,7 @@ fn speed_at_end(outcome: &Outcome) -> f64 {
 
 fn viscous() -> Result<Claim> {
     let (slope, v0, time) = (2.0, 0.5, 0.05);
-    let outcome = simulate(&slider(Friction::Viscous { slope }, v0, time))?;
+    let outcome = simulate(&slider(Friction::Viscous(Viscous { slope }), v0, time))?;
     Ok(Claim::relative(
         "viscous, slope 2 s/m: speed after 50 ms over v0 exp(-slope g t)",
         "",
@@ -56,7 +58,7 @@ fn viscous() -> Result<Claim> {
 
 fn falling() -> Result<Claim> {
     let (a, c, scale, v0, time) = (0.3, 0.5, 0.1, 0.4, 0.05);
-    let law = Friction::PressureVelocity { a, b: 0.0, pressure: 1.0, c, speed: scale };
+    let law = Friction::PressureVelocity(PressureVelocity { a, b: 0.0, pressure: 1.0, c, speed: scale });
     let outcome = simulate(&slider(law, v0, time))?;
     let w = ((a * (v0 / scale).exp() + c) * (-a * GRAVITY * time / scale).exp() - c) / a;
     Ok(Claim::relative(
@@ -75,13 +77,13 @@ fn pressed() -> Result<Vec<Claim>> {
     let size = [0.04, 0.02, 0.005];
     let mut claims = Vec::new();
     for gravity in [GRAVITY, 3.0 * GRAVITY] {
-        let law = Friction::PressureVelocity { a, b, pressure: scale, c: 0.0, speed: 1.0 };
+        let law = Friction::PressureVelocity(PressureVelocity { a, b, pressure: scale, c: 0.0, speed: 1.0 });
         let mut scene = slider(law, 0.0, 0.01);
         scene.body.mesh = MeshSpec::Block { size, elements: [8, 4, 1] };
         scene.body.viscosity = Some(300.0);
         scene.gravity = [0.0, 0.0, -gravity];
         scene.road =
-            Some(Road::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [1.0, 0.0, 0.0] });
+            Some(Road::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [1.0, 0.0, 0.0] }));
         // Damped to rest first: the block would bounce on its own weight.
         scene.stages.insert(0, Stage { mass_damping: 2e3, ..explicit("settle", 0.01) });
         let outcome = simulate(&scene)?;
@@ -102,11 +104,12 @@ fn pressed() -> Result<Vec<Claim>> {
 /// A rubber pad under a plate on a road that slides where mu rises with speed again.
 fn steady() -> Result<Vec<Claim>> {
     let (kinetic, still, fall, slope) = (0.2, 0.5, 0.02, 0.1);
-    let law = Friction::Stribeck { still, kinetic, speed: fall, slope };
+    let law = Friction::Stribeck(Stribeck { still, kinetic, speed: fall, slope });
     let speed = 0.5;
     let mut scene = block(SIZE, [4, 4, 2]);
     scene.body.viscosity = Some(50.0);
-    scene.road = Some(Road::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [speed, 0.0, 0.0] });
+    scene.road =
+        Some(Road::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [speed, 0.0, 0.0] }));
     scene.friction = Some(law);
     scene.rim = Some(Rim { nodes: NodeSet::ZMax });
     let down = Drive::Displacement { to: -2e-4, ramp: 1e-2 };

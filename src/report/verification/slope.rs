@@ -4,6 +4,7 @@
 
 use crate::Result;
 use crate::model::Model;
+use crate::physics::friction::Coulomb;
 use crate::report::bench::{DENSITY, G, GROUND, Outcome, block, explicit, simulate};
 use crate::report::{Case, Claim};
 use crate::run::stability;
@@ -24,7 +25,7 @@ const ANGLE: f64 = std::f64::consts::FRAC_PI_6;
 
 fn slope(size: f64, mu: f64, steps: f64) -> Result<Scene> {
     let mut scene = block([size, 0.5 * size, 0.5 * size], [6, 3, 3]);
-    scene.friction = Some(Friction::Coulomb { mu });
+    scene.friction = Some(Friction::Coulomb(Coulomb { mu }));
     scene.road = Some(GROUND);
     scene.gravity = [GRAVITY * ANGLE.sin(), 0.0, -GRAVITY * ANGLE.cos()];
     let dt = 0.9 * stability::element_bound(&Model::new(&scene)?)?;

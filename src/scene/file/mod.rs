@@ -210,7 +210,8 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
         None => Vec::new(),
     };
     let friction = table.get("friction").map(|item| world::friction(&item, road.is_some())).transpose()?;
-    let stages = stage::stages(&table.section("stage", "[[stage]]")?, rim.is_some(), road.as_ref())?;
+    let section = table.section("stage", "[[stage]]")?;
+    let stages = stage::stages(&section, rim.is_some(), road.as_ref(), body.offset)?;
     let output = output::output(&table.section("output", "[output]")?, &stages, road.is_some())?;
     let implicit = stages.iter().any(|s| matches!(s.method, super::Method::Implicit(_)));
     let scene = Scene {

@@ -16,8 +16,8 @@ const LATER: [Later; 2] = [
     ("checkpoint", "run the scene in one piece"),
 ];
 
-/// Every stage in order; where the rim has been displaced to is followed across them.
-pub(super) fn stages(item: &Item, has_rim: bool, road: Option<&Road>) -> Result<Vec<Stage>> {
+/// Every stage in order; where the rim has been displaced to is followed across them. `start`: a point of the body [m].
+pub(super) fn stages(item: &Item, has_rim: bool, road: Option<&Road>, start: [f64; 3]) -> Result<Vec<Stage>> {
     let entries = item.entries()?;
     if entries.is_empty() {
         return Err(item.error("no stage", "add a section [[stage]]"));
@@ -26,7 +26,7 @@ pub(super) fn stages(item: &Item, has_rim: bool, road: Option<&Road>) -> Result<
     let mut stages: Vec<Stage> = Vec::new();
     for (i, entry) in entries.iter().enumerate() {
         let stage = stage(entry, i, has_rim, &mut place)?;
-        check_slip(entry, &stage, &stages, road, place[STEER])?;
+        check_slip(entry, &stage, &stages, road, start, place[STEER])?;
         stages.push(stage);
     }
     Ok(stages)
@@ -41,11 +41,12 @@ fn check_slip(
     stage: &Stage,
     before: &[Stage],
     road: Option<&Road>,
+    start: [f64; 3],
     steer: Option<f64>,
 ) -> Result<()> {
     let Some(slip) = stage.slip else { return Ok(()) };
     let table = item.table()?.at("rim").table()?.at("spin").table()?;
-    if stage.heading_speed(road, steer.unwrap_or(0.0)) == 0.0 {
+    if stage.heading_speed(road, start, steer.unwrap_or(0.0)) == 0.0 {
         let remedy = "write x = { velocity = .. }, or a road that moves, or spin = { velocity = .. }";
         return Err(table.at("slip").error("the rim does not move along its heading over a road", remedy));
     }

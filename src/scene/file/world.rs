@@ -1,8 +1,10 @@
 //! `[rim]`, `[[hold]]`, `[road]`, `[friction]`.
 
+use super::parameters;
 use crate::error::Result;
+use crate::physics::road::Plane;
 use crate::scene::reader::{Bound, Item, Later, Table};
-use crate::scene::units::{LENGTH, PRESSURE, SLOWNESS, VELOCITY};
+use crate::scene::units::{LENGTH, VELOCITY};
 use crate::scene::{Friction, Hold, MeshSpec, NodeSet, Rim, Road};
 
 /// A road may move in its plane only, up to this share of its speed (round-off of a tilted normal).
@@ -72,8 +74,7 @@ pub(super) fn check_holds(item: &Item, holds: &[Hold], gravity: [f64; 3], road: 
         for (d, name) in ["x", "y", "z"].into_iter().enumerate().filter(|(d, _)| hold.components[*d]) {
             let Some(what) = (match road {
                 _ if gravity[d] != 0.0 => Some("gravity acts"),
-                Some(Road::Plane { normal, .. }) if normal[d] != 0.0 => Some("the road's normal points"),
-                Some(Road::Plane { velocity, .. }) if velocity[d] != 0.0 => Some("the road moves"),
+                Some(road) if !road.leaves_alone(d) => Some("the road pushes or moves"),
                 _ => None,
             }) else {
                 continue;
@@ -103,7 +104,7 @@ pub(super) fn road(item: &Item) -> Result<Road> {
             "write a velocity perpendicular to the normal",
         ));
     }
-    Ok(Road::Plane { point: table.vector_or_zero("point", &LENGTH)?, normal, velocity })
+    Ok(Plane { point: table.vector_or_zero("point", &LENGTH)?, normal, velocity }.into())
 }
 
 /// Unit normal, +z by default.
@@ -123,58 +124,14 @@ fn normal(road: &Table) -> Result<[f64; 3]> {
 /// `None` for mu = 0: a frictionless scene has no friction code.
 pub(super) fn friction(item: &Item, has_road: bool) -> Result<Option<Friction>> {
     let table = item.table()?;
-    type Read = fn(&Table) -> Result<Option<Friction>>;
-    let laws: [(&str, Read); 4] = [
-        ("coulomb", coulomb),
-        ("viscous", viscous),
-        ("stribeck", stribeck),
-        ("pressure-velocity", pressure_velocity),
-    ];
-    let read = table.get("law").map_or(Ok(laws[0].1), |law| law.choice(&laws, &LATER_FRICTION))?;
-    let law = read(&table)?;
+    let names: Vec<_> = Friction::KINDS.iter().map(|kind| (kind.name, kind)).collect();
+    let kind = table.get("law").map_or(Ok(&Friction::KINDS[0]), |law| law.choice(&names, &LATER_FRICTION))?;
+    let keys: Vec<_> = std::iter::once("law").chain(kind.parameters.iter().map(|p| p.key)).collect();
+    table.only(&keys, &[])?;
+    let values = parameters::read(&table, kind.parameters)?;
+    let law = (kind.from_values)(&values).map_err(|fault| parameters::error(&table, fault))?;
     if !has_road {
         return Err(item.error("friction without a road", "add a section [road], or remove [friction]"));
     }
     Ok(law)
-}
-
-fn coulomb(table: &Table) -> Result<Option<Friction>> {
-    table.only(&["law", "coefficient"], &[])?;
-    let mu = table.need("coefficient", "1.0")?.number(Bound::NotNegative)?;
-    Ok((mu > 0.0).then_some(Friction::Coulomb { mu }))
-}
-
-fn viscous(table: &Table) -> Result<Option<Friction>> {
-    table.only(&["law", "slope"], &[])?;
-    Ok(Some(Friction::Viscous { slope: table.quantity("slope", &SLOWNESS, Bound::Positive)? }))
-}
-
-fn stribeck(table: &Table) -> Result<Option<Friction>> {
-    table.only(&["law", "static", "kinetic", "speed", "slope"], &[])?;
-    Ok(Some(Friction::Stribeck {
-        still: table.need("static", "1.2")?.number(Bound::Positive)?,
-        kinetic: table.need("kinetic", "0.8")?.number(Bound::NotNegative)?,
-        speed: table.quantity("speed", &VELOCITY, Bound::Positive)?,
-        slope: table.quantity_or("slope", 0.0, &SLOWNESS, Bound::NotNegative)?,
-    }))
-}
-
-fn pressure_velocity(table: &Table) -> Result<Option<Friction>> {
-    table.only(&["law", "a", "b", "pressure", "c", "speed"], &[])?;
-    let number = |key, example| table.need(key, example).and_then(|item| item.number(Bound::Any));
-    let (a, b, c) = (number("a", "0.5")?, number("b", "0.6")?, number("c", "0.3")?);
-    let least = a + b.min(0.0) + c.min(0.0);
-    if least < 0.0 {
-        return Err(table.at("a").error(
-            format!("the coefficient would fall to {least}"),
-            "write a, b, c that stay positive at every pressure and speed",
-        ));
-    }
-    Ok(Some(Friction::PressureVelocity {
-        a,
-        b,
-        pressure: table.quantity("pressure", &PRESSURE, Bound::Positive)?,
-        c,
-        speed: table.quantity("speed", &VELOCITY, Bound::Positive)?,
-    }))
 }
