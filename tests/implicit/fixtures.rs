@@ -7,8 +7,7 @@ use hexroll::implicit::{Inner, Limits, Newton, Scheme, Simulation, Target};
 use hexroll::model::Model;
 use hexroll::physics::friction::Coulomb;
 use hexroll::physics::material::NeoHookean;
-use hexroll::physics::road::Plane;
-use hexroll::scene::{Body, Element, Law, Lumping, MeshSpec, NodeSet};
+use hexroll::scene::{Body, Element, GROUND, Law, Lumping, MeshSpec, NodeSet};
 
 pub const WHEEL_LAW: Law = Law::NeoHookean(NeoHookean { g0: 65.1e6, g1: 2.64e6 });
 
@@ -40,8 +39,9 @@ pub fn model(body: &Body, rim: Option<NodeSet>) -> Model {
 
 pub fn road(mu: f64) -> Surface {
     Surface {
-        road: Plane::new([0.0; 3], [0.0, 0.0, 1.0], [0.0; 3], [0.0; 3]),
-        friction: (mu > 0.0).then_some(Coulomb { mu }),
+        road: GROUND,
+        friction: (mu > 0.0).then_some(Coulomb { mu }.into()),
+        inverse_area: Vec::new(),
         dt: 1.0,
         touch: 1e-13,
     }
