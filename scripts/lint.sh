@@ -9,7 +9,7 @@ has_cargo() { cargo "$1" --version >/dev/null 2>&1 || { echo "lint: cargo $1 is 
 for script in scripts/*.sh .ci/run; do
     bash -n "$script"
 done
-if has_cargo fmt; then cargo fmt --check; fi
-if has_cargo clippy; then cargo clippy --locked --all-targets -- -D warnings; fi
+if has_cargo fmt; then cargo fmt --all --check; fi
+if has_cargo clippy; then cargo clippy --workspace --locked --all-targets -- -D warnings; fi
 # Advisories need a database from the network: `cargo deny check advisories`.
 if has_cargo deny; then cargo deny --locked check bans licenses sources; fi

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 if cargo nextest --version >/dev/null 2>&1; then
     profile=default
     [[ -n ${CI:-} ]] && profile=ci
-    exec cargo nextest run --locked --no-fail-fast --profile "$profile" "$@"
+    exec cargo nextest run --workspace --locked --no-fail-fast --profile "$profile" "$@"
 fi
 echo "cargo-nextest is not installed (make tools builds it): running cargo test" >&2
-exec cargo test --locked --no-fail-fast --lib --bins --tests "$@"
+exec cargo test --workspace --locked --no-fail-fast --lib --bins --tests "$@"

@@ -13,7 +13,6 @@ pub mod gpu;
 pub mod implicit;
 pub mod model;
 pub mod output;
-pub mod physics;
 pub mod plot;
 pub mod record;
 pub mod render;
@@ -23,3 +22,4 @@ pub mod scene;
 pub mod study;
 
 pub use error::{Error, Result};
+pub use hexroll_physics as physics;

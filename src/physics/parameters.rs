@@ -45,7 +45,7 @@ pub struct Fault {
     pub remedy: String,
 }
 
-/// A type that is its parameters, in SI units and double precision. Written by [`parameters!`](crate::physics::parameters!).
+/// A type that is its parameters, in SI units and double precision. Written by [`parameters!`](crate::parameters!).
 pub trait Parameters: Copy + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// Name in a scene file; with `_` for `-` the stem of its shader.
     const NAME: &'static str;
@@ -91,15 +91,15 @@ macro_rules! parameters_of_a_law {
             $($(#[doc = $doc])* pub $field: f64,)*
         }
 
-        impl $crate::physics::parameters::Parameters for $type {
+        impl $crate::parameters::Parameters for $type {
             const NAME: &'static str = $name;
-            const PARAMETERS: &'static [$crate::physics::parameters::Parameter] = &[$(
-                $crate::physics::parameters::Parameter {
+            const PARAMETERS: &'static [$crate::parameters::Parameter] = &[$(
+                $crate::parameters::Parameter {
                     key: $key,
                     constant: concat!($prefix, stringify!($field)),
                     doc: concat!($($doc),*).trim_ascii(),
-                    quantity: $crate::physics::parameters::Quantity::$quantity,
-                    bound: $crate::physics::parameters::Bound::$bound,
+                    quantity: $crate::parameters::Quantity::$quantity,
+                    bound: $crate::parameters::Bound::$bound,
                     default: $crate::parameters_of_a_law!(@default $($default)?),
                 },
             )*];

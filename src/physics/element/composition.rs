@@ -3,7 +3,7 @@
 use super::{
     Element, ExtrudedFull, ExtrudedQ1p0, ExtrudedUniformGradient, Formulation, Full, Q1p0, UniformGradient,
 };
-use crate::physics::material::{Hyperelastic, Inviscid, KelvinVoigt, Law, Viscosity, WithLaw};
+use crate::material::{Hyperelastic, Inviscid, KelvinVoigt, Law, Viscosity, WithLaw};
 
 /// What an element's forces are made of.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,8 +1,8 @@
 use super::hex8::{self, Corners, Shape};
 use super::q1p0::{points, pointwise_energy};
 use super::{Class, Energy, Force, Formulation};
-use crate::physics::material::{Hyperelastic, Viscosity};
-use crate::physics::scalar::Scalar;
+use crate::material::{Hyperelastic, Viscosity};
+use crate::scalar::Scalar;
 use std::ops::Range;
 
 /// 2x2x2 points for everything: locks near incompressibility, and shows it.

@@ -16,10 +16,10 @@
 //! ```
 
 use super::Lumping;
-use crate::physics::lanes::Lanes;
-use crate::physics::material::{Derivatives, Hyperelastic};
-use crate::physics::scalar::Scalar;
-use crate::physics::tensor::{
+use crate::lanes::Lanes;
+use crate::material::{Derivatives, Hyperelastic};
+use crate::scalar::Scalar;
+use crate::tensor::{
     Mat3, Metric, Sym3, Vec3, add, axpy, cofactor, combined, cross, det, dot, neg, scale, sub,
 };
 use std::ops::Range;

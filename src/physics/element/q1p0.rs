@@ -1,8 +1,8 @@
 use super::hex8::{self, Corners, Shape};
 use super::{Class, Energy, Force, Formulation};
-use crate::physics::material::{Hyperelastic, Viscosity};
-use crate::physics::scalar::Scalar;
-use crate::physics::tensor::{InPlane, Metric, Sym3, axpy, cofactor, combined, det, dot, scale};
+use crate::material::{Hyperelastic, Viscosity};
+use crate::scalar::Scalar;
+use crate::tensor::{InPlane, Metric, Sym3, axpy, cofactor, combined, det, dot, scale};
 use std::ops::Range;
 
 /// 2x2x2 points for the isochoric part, one element pressure p = U'(v/V) (Simo, Taylor & Pister's mean

@@ -1,10 +1,8 @@
 use super::hex8::{self, Corners, HOURGLASS, Shape};
 use super::{Class, Energy, Force, Formulation};
-use crate::physics::material::{Hyperelastic, Viscosity};
-use crate::physics::scalar::Scalar;
-use crate::physics::tensor::{
-    Identity, Mat3, Vec3, add, axpy, cofactor, combined, det, dot, neg, scale, sub,
-};
+use crate::material::{Hyperelastic, Viscosity};
+use crate::scalar::Scalar;
+use crate::tensor::{Identity, Mat3, Vec3, add, axpy, cofactor, combined, det, dot, neg, scale, sub};
 use std::ops::Range;
 
 /// Volume-averaged gradients (Flanagan & Belytschko 1981) and hourglass stiffness on gamma-vectors formed on the
@@ -241,8 +239,8 @@ fn extruded_forces<S: Scalar, G: Shape<S>>(class: &G, p: &Mat3<S>, hourglass: &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::element::{Class, ExtrudedFull, ExtrudedQ1p0, Full, Q1p0};
-    use crate::physics::material::{Inviscid, KelvinVoigt, MooneyRivlin};
+    use crate::element::{Class, ExtrudedFull, ExtrudedQ1p0, Full, Q1p0};
+    use crate::material::{Inviscid, KelvinVoigt, MooneyRivlin};
 
     /// All routines on plane figures extruded along eta, in any direction of space, deformed and moving at random.
     #[test]

@@ -1,6 +1,6 @@
 use super::{FrictionLaw, Sliding};
-use crate::physics::parameters::parameters;
-use crate::physics::scalar::Real;
+use crate::parameters::parameters;
+use crate::scalar::Real;
 
 parameters! {
     /// Constant coefficient: |fT| <= mu |fN| (eq. 10).

@@ -1,6 +1,6 @@
 use super::{FrictionLaw, Sliding};
-use crate::physics::parameters::{Fault, parameters};
-use crate::physics::scalar::Real;
+use crate::parameters::{Fault, parameters};
+use crate::scalar::Real;
 
 parameters! {
     /// mu = a + b exp(-p/p0) + c exp(-v/v0): a fit of tests of tread rubber at several loads and speeds (LAT 100).

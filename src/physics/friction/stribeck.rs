@@ -1,6 +1,6 @@
 use super::{FrictionLaw, Sliding};
-use crate::physics::parameters::parameters;
-use crate::physics::scalar::Real;
+use crate::parameters::parameters;
+use crate::scalar::Real;
 
 parameters! {
     /// Stribeck's curve as Armstrong-Helouvry writes it (Control of Machines with Friction, 1991, with exponent 2):

@@ -1,6 +1,6 @@
 use super::{FrictionLaw, Sliding};
-use crate::physics::parameters::parameters;
-use crate::physics::scalar::Real;
+use crate::parameters::parameters;
+use crate::scalar::Real;
 
 parameters! {
     /// mu = slope v: a lubricant's film; never sticks.

@@ -1,11 +1,11 @@
 use super::Lanes;
-use crate::physics::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// 4/3 of the exponent bias less what centres the error, in units of the upper 32 bits: x^(-1/3) has about the bits
 /// GUESS - bits(x)/3.
-pub(in crate::physics) const GUESS_F64: f64 = 1_430_195_000.0;
-pub(in crate::physics) const GUESS_F32: f32 = 1_419_909_400.0;
+pub(crate) const GUESS_F64: f64 = 1_430_195_000.0;
+pub(crate) const GUESS_F32: f32 = 1_419_909_400.0;
 
 /// Lanes as an array, which the compiler turns into vector registers (SSE2, NEON): no fused multiply-add, which is a
 /// library call where the instructions are not known to be there.

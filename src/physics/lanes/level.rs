@@ -1,7 +1,7 @@
 //! Levels of instructions: proofs that the machine has them, and the one place that calls work compiled for them.
 
 use super::Lanes;
-use crate::physics::scalar::Real;
+use crate::scalar::Real;
 
 /// Work that is done in lanes of `T`, whatever their number.
 pub trait InLanes<T: Real> {

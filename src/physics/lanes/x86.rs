@@ -2,7 +2,7 @@
 //! times as long over the others. Those of 128 bits need nothing that an x86-64 processor may lack (SSE2).
 
 use super::Lanes;
-use crate::physics::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar};
 use std::arch::x86_64::*;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 

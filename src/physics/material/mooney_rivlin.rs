@@ -1,6 +1,6 @@
 use super::{Derivatives, Hyperelastic, Law, NeoHookean};
-use crate::physics::parameters::parameters;
-use crate::physics::scalar::Scalar;
+use crate::parameters::parameters;
+use crate::scalar::Scalar;
 
 parameters! {
     /// The paper's energy, eq. 5:

@@ -1,6 +1,6 @@
 use super::{Derivatives, Hyperelastic};
-use crate::physics::parameters::parameters;
-use crate::physics::scalar::Scalar;
+use crate::parameters::parameters;
+use crate::scalar::Scalar;
 
 parameters! {
     /// The law whose Cauchy stress is the paper's eq. 4 (with the sign of its last term that makes G = g1 + g2):

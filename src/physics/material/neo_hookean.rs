@@ -1,6 +1,6 @@
 use super::{Derivatives, Hyperelastic};
-use crate::physics::parameters::parameters;
-use crate::physics::scalar::Scalar;
+use crate::parameters::parameters;
+use crate::scalar::Scalar;
 
 parameters! {
     /// `mooney-rivlin` with g2 = 0, Abaqus's neo-Hookean with C10 = G/2, D1 = 2/kappa:

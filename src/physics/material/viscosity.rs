@@ -1,5 +1,5 @@
-use crate::physics::scalar::Scalar;
-use crate::physics::tensor::{Mat3, Vec3, combined, dot};
+use crate::scalar::Scalar;
+use crate::tensor::{Mat3, Vec3, combined, dot};
 
 /// A viscous stress added to any law, or nothing.
 pub trait Viscosity: Copy + Send + Sync + 'static {

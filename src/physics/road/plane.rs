@@ -1,6 +1,6 @@
 use super::Surface;
-use crate::physics::scalar::Scalar;
-use crate::physics::tensor::{Vec3, cross, dot, scale, sub, vec3};
+use crate::scalar::Scalar;
+use crate::tensor::{Vec3, cross, dot, scale, sub, vec3};
 
 /// The half-space n . x < n . point, moving in its own plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
