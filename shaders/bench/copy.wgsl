@@ -1,7 +1,7 @@
 // Memory bandwidth: every vec4f read once and written once, coalesced.
 
-@group(0) @binding(0) var<storage, read> from_buffer: array<vec4f>;
-@group(0) @binding(1) var<storage, read_write> to_buffer: array<vec4f>;
+var<storage, read_write> from_buffer: array<vec4f>;
+var<storage, read_write> to_buffer: array<vec4f>;
 
 @compute @workgroup_size(64)
 fn main(

@@ -1,6 +1,6 @@
 // The least a dispatch can do: one word, so that each dispatch waits for the one before.
 
-@group(0) @binding(1) var<storage, read_write> to_buffer: array<vec4f>;
+var<storage, read_write> to_buffer: array<vec4f>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(local_invocation_index) lane: u32) {

@@ -1,7 +1,7 @@
 // Arithmetic: eight independent chains of vec4r multiply-adds in registers, 64 scalar ones a turn.
 
-@group(0) @binding(0) var<storage, read> from_buffer: array<vec4r>;
-@group(0) @binding(1) var<storage, read_write> to_buffer: array<vec4r>;
+var<storage, read_write> from_buffer: array<vec4r>;
+var<storage, read_write> to_buffer: array<vec4r>;
 
 override turns: u32;
 

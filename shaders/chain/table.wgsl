@@ -1,9 +1,5 @@
 // Nodes and elements of chains from tables: any mesh.
 
-// The nodes of a face: corners 0..3 of 64 chains each.
-@group(0) @binding(1) var<storage, read> chain_nodes: array<u32>;
-@group(0) @binding(22) var<storage, read> chain_elements: array<u32>;
-
 fn face_at(at: u32) -> vec4u {
     return vec4u(
         chain_nodes[at], chain_nodes[at + CHAINS], chain_nodes[at + 2u * CHAINS], chain_nodes[at + 3u * CHAINS]);

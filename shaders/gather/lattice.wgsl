@@ -1,7 +1,5 @@
 // The internal force of a node of a generator's mesh: its slots follow from its number.
 
-@group(0) @binding(2) var<storage, read> slots: array<vec4r>;
-
 // Layers of chains, and elements of a chain of the last one.
 override lattice_layers: u32;
 override lattice_last: u32;

@@ -1,7 +1,7 @@
 // Compensated sums of given pairs: does the adapter round as they need, or does its compiler reassociate?
 
-@group(0) @binding(0) var<storage, read> pairs: array<vec4f>;
-@group(0) @binding(1) var<storage, read_write> results: array<vec4f>;
+var<storage, read_write> pairs: array<vec4f>;
+var<storage, read_write> results: array<vec4f>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(local_invocation_index) lane: u32) {

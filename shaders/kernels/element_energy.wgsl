@@ -1,7 +1,5 @@
 // Stored energies along every chain: (strain, hourglass, 0, smallest det F).
 
-@group(0) @binding(3) var<storage, read_write> energies: array<vec4r>;
-
 @compute @workgroup_size(64)
 fn main(
     @builtin(workgroup_id) group: vec3u,

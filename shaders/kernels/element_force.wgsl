@@ -1,8 +1,5 @@
 // Internal force of every element, summed along its chain into the slots of the faces.
 
-@group(0) @binding(3) var<storage, read_write> slots: array<vec4r>;
-@group(0) @binding(5) var<uniform> step: Step;
-
 const NONE: u32 = 0xffffffffu;
 
 @compute @workgroup_size(64)

@@ -1,6 +1,6 @@
 // Internal force of every node, for reading back.
 
-@group(0) @binding(9) var<storage, read_write> forces: array<vec4r>;
+var<storage, read_write> forces: array<vec4r>;
 
 @compute @workgroup_size(64)
 fn main(

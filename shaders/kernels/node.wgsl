@@ -1,7 +1,5 @@
 // Gather, acceleration, contact projection, integration and book-keeping of nodes: the interior ones, or the rest.
 
-@group(0) @binding(5) var<uniform> step: Step;
-
 @compute @workgroup_size(64)
 fn main(
     @builtin(workgroup_id) group: vec3u,

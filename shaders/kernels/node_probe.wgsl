@@ -1,10 +1,6 @@
 // The step after a window, computed but not taken: what the stored energy pairs with; and the window's works, which
 // begin anew. Sums by work group: four records each.
 
-@group(0) @binding(5) var<uniform> step: Step;
-@group(0) @binding(13) var<storage, read_write> probes: array<vec4r>;
-@group(0) @binding(11) var<storage, read_write> velocities: array<vec4r>;
-
 // Energies (mixed kinetic, kinetic, net force^2, internal force^2); half works (internal, body force, damping, rim);
 // half works of contact (normal, friction); works of the window (internal, body force, damping).
 struct Probed { energies: vec4r, works: vec4r, contact: vec4r, window: vec4r }

@@ -1,7 +1,6 @@
 // Moves the origin of the frame: positions less a shift that is a multiple of a power of two.
 
-@group(0) @binding(5) var<uniform> shift: Shift;
-@group(0) @binding(10) var<storage, read_write> positions: array<vec4r>;
+var<uniform> shift: Shift;
 
 @compute @workgroup_size(64)
 fn main(

@@ -1,8 +1,6 @@
 // Moves the origin of the frame of hi + lo positions.
 
-@group(0) @binding(5) var<uniform> shift: Shift;
-@group(0) @binding(10) var<storage, read_write> positions: array<vec4r>;
-@group(0) @binding(12) var<storage, read_write> positions_lo: array<vec4r>;
+var<uniform> shift: Shift;
 
 @compute @workgroup_size(64)
 fn main(

@@ -4,10 +4,10 @@
 override width: u32;
 override least_w: bool;
 
-@group(0) @binding(0) var<storage, read> records: array<vec4r>;
-@group(0) @binding(1) var<storage, read_write> partials: array<vec4r>;
+var<storage, read_write> records: array<vec4r>;
+var<storage, read_write> partials: array<vec4r>;
 
-var<workgroup> shared_sums: array<vec4r, 64>;
+var<workgroup> group_sums: array<vec4r, 64>;
 
 fn combine(a: vec4r, b: vec4r) -> vec4r {
     return vec4r(a.xyz + b.xyz, select(a.w + b.w, min(a.w, b.w), least_w));
@@ -24,15 +24,15 @@ fn main(
     for (var i = group.x * 64u + lane; i < count; i += groups.x * 64u) {
         sum = combine(sum, records[i * width + group.y]);
     }
-    shared_sums[lane] = sum;
+    group_sums[lane] = sum;
     workgroupBarrier();
     for (var half = 32u; half > 0u; half /= 2u) {
         if lane < half {
-            shared_sums[lane] = combine(shared_sums[lane], shared_sums[lane + half]);
+            group_sums[lane] = combine(group_sums[lane], group_sums[lane + half]);
         }
         workgroupBarrier();
     }
     if lane == 0u {
-        partials[group.y * groups.x + group.x] = shared_sums[0];
+        partials[group.y * groups.x + group.x] = group_sums[0];
     }
 }

@@ -6,10 +6,6 @@ override threads: u32;
 override rounds: u32;
 override faces: u32;
 
-@group(0) @binding(17) var<storage, read> plan: array<Step>;
-
-var<workgroup> step: Step;
-
 // Adds the forces on one face of each chain to the nodes, corner by corner: chains side by side share no corner of the
 // same number, so no two threads meet, and the order is always the same.
 fn add_face(nodes: vec4u, there: bool, f: Shared) {

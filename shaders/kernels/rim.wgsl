@@ -12,10 +12,6 @@ override inverse_mass_z: real;
 override inverse_inertia: real;
 override rim_alpha: real;
 
-@group(0) @binding(4) var<storage, read> rim_nodes: array<u32>;
-@group(0) @binding(5) var<uniform> step: Step;
-@group(0) @binding(8) var<storage, read_write> rim_state: RimState;
-
 var<workgroup> forces: array<vec3r, 64>;
 var<workgroup> moments: array<vec3r, 64>;
 

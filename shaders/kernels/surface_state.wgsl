@@ -1,9 +1,5 @@
 // Positions and velocities of the surface nodes, packed for reading back.
 
-@group(0) @binding(0) var<storage, read> surface_nodes: array<u32>;
-@group(0) @binding(3) var<storage, read_write> surface_states: array<vec4r>;
-@group(0) @binding(11) var<storage, read> velocities_now: array<vec4r>;
-
 @compute @workgroup_size(64)
 fn main(
     @builtin(workgroup_id) group: vec3u,
@@ -15,5 +11,5 @@ fn main(
         return;
     }
     surface_states[2u * k] = load_node(surface_nodes[k]);
-    surface_states[2u * k + 1u] = velocities_now[surface_nodes[k]];
+    surface_states[2u * k + 1u] = velocities[surface_nodes[k]];
 }

@@ -1,10 +1,6 @@
 // Elements in chains: the upper face of one is the lower face of the next, so that a thread that goes along a chain
 // loads and stores every face once. A work group has CHAINS chains of one length, side by side.
 
-// Of a work group: its first slot, its first class, elements a chain, chains.
-@group(0) @binding(0) var<storage, read> chain_groups: array<vec4u>;
-@group(0) @binding(21) var<storage, read> chain_classes: array<u32>;
-
 // A chain's group, its place among the group's chains, and its first slot.
 struct Chain { group: u32, lane: u32, at: u32 }
 

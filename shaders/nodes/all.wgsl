@@ -3,3 +3,7 @@
 fn is_left_out(mass: real) -> bool {
     return false;
 }
+
+fn node_of(n: u32, mass: real) -> Node {
+    return Node(abs(mass), roles[n]);
+}

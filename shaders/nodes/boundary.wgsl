@@ -1,7 +1,5 @@
 // The nodes that can touch the road, then those of the rim.
 
-@group(0) @binding(14) var<storage, read> boundary: array<u32>;
-
 fn node_threads() -> u32 {
     return arrayLength(&boundary);
 }
@@ -12,4 +10,8 @@ fn node_at(thread: u32) -> u32 {
 
 fn is_left_out(mass: real) -> bool {
     return false;
+}
+
+fn node_of(n: u32, mass: real) -> Node {
+    return Node(abs(mass), roles[n]);
 }

@@ -1,8 +1,5 @@
 // Positions as unevaluated sums hi + lo of two single-precision numbers: differences are taken hi - hi + lo - lo.
 
-@group(0) @binding(10) var<storage, read> positions_in: array<vec4r>;
-@group(0) @binding(12) var<storage, read> positions_lo_in: array<vec4r>;
-
 // Corners of a face, in single precision.
 struct Part { a: vec3r, b: vec3r, c: vec3r, d: vec3r }
 
@@ -14,8 +11,8 @@ fn load_face(nodes: vec4u) -> Face {
     let c = nodes.z;
     let d = nodes.w;
     return Face(
-        Part(positions_in[a].xyz, positions_in[b].xyz, positions_in[c].xyz, positions_in[d].xyz),
-        Part(positions_lo_in[a].xyz, positions_lo_in[b].xyz, positions_lo_in[c].xyz, positions_lo_in[d].xyz));
+        Part(positions[a].xyz, positions[b].xyz, positions[c].xyz, positions[d].xyz),
+        Part(positions_lo[a].xyz, positions_lo[b].xyz, positions_lo[c].xyz, positions_lo[d].xyz));
 }
 
 fn sum_pair(a: Four, b: Four) -> Four {
@@ -40,4 +37,23 @@ fn offsets_of(low: Face, high: Face) -> Corners {
         vec3r(0.0), (x.a1 - x.a0) + (y.a1 - y.a0), (x.a2 - x.a0) + (y.a2 - y.a0), (x.a3 - x.a0) + (y.a3 - y.a0),
         (x.a4 - x.a0) + (y.a4 - y.a0), (x.a5 - x.a0) + (y.a5 - y.a0), (x.a6 - x.a0) + (y.a6 - y.a0),
         (x.a7 - x.a0) + (y.a7 - y.a0));
+}
+
+// Position, and mass.
+fn load_node(n: u32) -> vec4r {
+    return positions[n] + vec4r(positions_lo[n].xyz, 0.0);
+}
+
+// hi + lo + dt v in full precision, then the landing on the road, so that hi is the rounded sum. A rim node is where
+// the rim says, in single precision relative to the frame.
+fn store_position(n: u32, moved: Moved, rim: bool, mass: real) {
+    if rim {
+        positions[n] = vec4r(moved.x, mass);
+        positions_lo[n] = vec4r(0.0);
+        return;
+    }
+    let flown = two_sum(positions[n].xyz, positions_lo[n].xyz + step.dt * moved.v, step.zero);
+    let landed = two_sum(flown.hi, flown.lo + landing(flown, moved.touches), step.zero);
+    positions[n] = vec4r(landed.hi, mass);
+    positions_lo[n] = vec4r(landed.lo, 0.0);
 }

@@ -1,13 +1,11 @@
 // Positions in single precision, relative to a frame that follows the axle.
 
-@group(0) @binding(10) var<storage, read> positions_in: array<vec4r>;
-
 // Corners of a face.
 struct Face { a: vec3r, b: vec3r, c: vec3r, d: vec3r }
 
 fn load_face(nodes: vec4u) -> Face {
     return Face(
-        positions_in[nodes.x].xyz, positions_in[nodes.y].xyz, positions_in[nodes.z].xyz, positions_in[nodes.w].xyz);
+        positions[nodes.x].xyz, positions[nodes.y].xyz, positions[nodes.z].xyz, positions[nodes.w].xyz);
 }
 
 fn edges_of(low: Face, high: Face) -> Columns {
@@ -19,4 +17,13 @@ fn offsets_of(low: Face, high: Face) -> Corners {
     return Corners(
         vec3r(0.0), low.b - low.a, low.c - low.a, low.d - low.a,
         high.a - low.a, high.b - low.a, high.c - low.a, high.d - low.a);
+}
+
+// Position, and mass.
+fn load_node(n: u32) -> vec4r {
+    return positions[n];
+}
+
+fn store_position(n: u32, moved: Moved, rim: bool, mass: real) {
+    positions[n] = vec4r(moved.x, mass);
 }

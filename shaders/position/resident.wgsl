@@ -1,12 +1,4 @@
-// Positions and forces of all nodes in the work group's memory, three numbers a node.
-
-@group(0) @binding(10) var<storage, read_write> positions: array<vec4r>;
-@group(0) @binding(11) var<storage, read_write> velocities: array<vec4r>;
-@group(0) @binding(13) var<storage, read_write> done: array<u32>;
-
-override words: u32;
-var<workgroup> held_positions: array<real, words>;
-var<workgroup> held_forces: array<real, words>;
+// Positions in the work group's memory.
 
 // Corners of a face.
 struct Face { a: vec3r, b: vec3r, c: vec3r, d: vec3r }
@@ -40,21 +32,6 @@ fn enter(n: u32) {
 
 fn leave(n: u32) {
     positions[of_nodes(n)] = load_node(n);
-}
-
-fn add_force(n: u32, f: vec3r) {
-    held_forces[3u * n] += f.x;
-    held_forces[3u * n + 1u] += f.y;
-    held_forces[3u * n + 2u] += f.z;
-}
-
-// Internal force of a node; its sum begins anew.
-fn gather(n: u32) -> vec3r {
-    let f = vec3r(held_forces[3u * n], held_forces[3u * n + 1u], held_forces[3u * n + 2u]);
-    held_forces[3u * n] = 0.0;
-    held_forces[3u * n + 1u] = 0.0;
-    held_forces[3u * n + 2u] = 0.0;
-    return f;
 }
 
 fn load_face(nodes: vec4u) -> Face {

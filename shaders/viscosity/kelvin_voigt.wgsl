@@ -17,3 +17,25 @@ fn viscous_stress(a_dot: mat3x3r, cof: mat3x3r, det_a: real, weight: real) -> Vi
     let power = d.x * l[0][0] + d.y * l[1][1] + d.z * l[2][2] + dot(s, off);
     return Viscous(mat3x3r(vec3r(d.x, s.x, s.y), vec3r(s.x, d.y, s.z), vec3r(s.y, s.z, d.z)), power);
 }
+
+// Velocities of a face's corners.
+struct Rates { a: vec3r, b: vec3r, c: vec3r, d: vec3r }
+
+fn load_rates(nodes: vec4u) -> Rates {
+    return Rates(
+        velocities[of_nodes(nodes.x)].xyz, velocities[of_nodes(nodes.y)].xyz, velocities[of_nodes(nodes.z)].xyz,
+        velocities[of_nodes(nodes.w)].xyz);
+}
+
+fn rates_of(low: Rates, high: Rates) -> Corners {
+    return Corners(low.a, low.b, low.c, low.d, high.a, high.b, high.c, high.d);
+}
+
+fn viscous_power(result: ElementForce) -> real {
+    return result.viscous_power;
+}
+
+// In the viscous work of the window.
+fn book_viscous(chain: u32, power: real) {
+    viscous_work[of_chains(chain)] -= step.viscous_weight * power;
+}

@@ -155,7 +155,7 @@ impl GpuEngine {
             prepared;
         upload::fill(gpu, &mut buffers, &model, &choice, frame, scene.road.as_ref());
         let program = |kernel| Program::new(gpu, &choice, kernel, &constants);
-        let bound = |p: Program| Bound::new(gpu, p, |name| buffers.get(canonical(name)));
+        let bound = |p: Program| Bound::new(gpu, p, |name| buffers.get(name));
         let force = bound(program(Kernel::ElementForce)?);
         let surface_state = match counts.surface {
             0 => None,
@@ -168,7 +168,10 @@ impl GpuEngine {
         };
         let reductions = Reductions::new(gpu, &choice, &buffers, counts.rim > 0)?;
         let engine = GpuEngine {
-            gather: bound(program(Kernel::Gather)?),
+            gather: Bound::new(gpu, program(Kernel::Gather)?, |name| {
+                // Forces are read back through the velocities' buffer, which the state does not need while it is on the host.
+                buffers.get(if name == "forces" { "velocities" } else { name })
+            }),
             energy: bound(program(Kernel::ElementEnergy)?),
             rim: FreeRim::new(&model),
             gpu: gpu.clone(),
@@ -187,8 +190,8 @@ impl GpuEngine {
             seat,
             steps_per_submit: 8,
             fixed_submits: false,
-            surface_nodes: if choice.road { model.mesh.surface.clone() } else { Vec::new() },
-            masses: upload::masses(&model, choice.road),
+            surface_nodes: if choice.road.is_some() { model.mesh.surface.clone() } else { Vec::new() },
+            masses: upload::masses(&model, choice.road.is_some()),
             choice,
             constants,
             buffers,
@@ -311,17 +314,6 @@ impl GpuEngine {
     pub(super) fn absolute(&self, hi: &[[f64; 4]], lo: Option<&[[f64; 4]]>) -> Vec<[f64; 3]> {
         let at = |n: usize, d: usize| hi[n][d] + lo.map_or(0.0, |lo| lo[n][d]) + self.frame[d];
         self.by_model((0..hi.len()).map(|n| std::array::from_fn(|d| at(n, d))).collect())
-    }
-}
-
-/// The buffer behind a shader's name for it. Forces are read back through the velocities' buffer, which the state does
-/// not need while it is on the host.
-pub fn canonical(name: &str) -> &str {
-    match name {
-        "positions_in" => "positions",
-        "positions_lo_in" => "positions_lo",
-        "velocities_in" | "velocities_now" | "forces" => "velocities",
-        other => other,
     }
 }
 

@@ -57,7 +57,7 @@ impl Limits {
 
 /// Bytes read plus bytes written a second, copying `bytes` from one buffer to another.
 pub fn copy_bandwidth(gpu: &Gpu, bytes: u64) -> Result<f64> {
-    let kernel = Loop::new(gpu, "copy", include_str!("../../shaders/bench/copy.wgsl"), bytes as usize, &[])?;
+    let kernel = Loop::new(gpu, "bench/copy", Real::Single, bytes as usize, &[])?;
     let groups = (bytes as usize / 16).div_ceil(GROUP) as u32;
     let rows = groups.div_ceil(gpu.report.workgroups);
     Ok(2.0 * bytes as f64 / kernel.seconds(gpu, [groups.div_ceil(rows), rows, 1])?)
@@ -68,13 +68,8 @@ pub fn multiply_add_rate(gpu: &Gpu, real: Real) -> Result<f64> {
     // Enough threads for 256 processors of 2,048 threads; a software adapter has few.
     let (groups, turns) = if gpu.report.software { (64, 512) } else { (8192, 256) };
     let threads = groups * GROUP;
-    let precision = match real {
-        Real::Single => include_str!("../../shaders/real/single.wgsl"),
-        Real::Double => include_str!("../../shaders/real/double.wgsl"),
-    };
-    let text = [precision, include_str!("../../shaders/bench/multiply_add.wgsl")].concat();
     let bytes = 4 * real.bytes() * threads;
-    let kernel = Loop::new(gpu, "multiply_add", &text, bytes, &[("turns", turns as f64)])?;
+    let kernel = Loop::new(gpu, "bench/multiply_add", real, bytes, &[("turns", turns as f64)])?;
     // The factor and the summand.
     kernel.from.write(gpu, &encode(real, &[[0.5; 4], [1.0; 4]]));
     let operations = 2 * MULTIPLY_ADDS * turns * threads;
@@ -83,7 +78,7 @@ pub fn multiply_add_rate(gpu: &Gpu, real: Real) -> Result<f64> {
 
 /// Seconds a dispatch costs that waits for the one before and does nothing.
 pub fn dispatch_latency(gpu: &Gpu) -> Result<f64> {
-    let kernel = Loop::new(gpu, "empty", include_str!("../../shaders/bench/empty.wgsl"), 1024, &[])?;
+    let kernel = Loop::new(gpu, "bench/empty", Real::Single, 1024, &[])?;
     kernel.seconds(gpu, [1, 1, 1])
 }
 
@@ -107,11 +102,11 @@ struct Loop {
 }
 
 impl Loop {
-    fn new(gpu: &Gpu, label: &str, text: &str, bytes: usize, constants: &[(&str, f64)]) -> Result<Loop> {
+    fn new(gpu: &Gpu, entry: &str, real: Real, bytes: usize, constants: &[(&str, f64)]) -> Result<Loop> {
         let mut buffers = Buffers::default();
         buffers.zeroed(gpu, "from_buffer", 1, bytes);
         buffers.zeroed(gpu, "to_buffer", 1, bytes);
-        let program = Program::alone(gpu, label, text, constants)?;
+        let program = Program::plain(gpu, entry, real, constants)?;
         gpu.check()?;
         let from = buffers.get("from_buffer").clone();
         Ok(Loop { kernel: Bound::new(gpu, program, |name| buffers.get(name)), from })

@@ -12,7 +12,7 @@ use super::upload::{self, Table};
 use crate::error::Result;
 use crate::model::mesh::Mesh;
 use crate::model::{Model, frame};
-use crate::scene::{Friction, Scene};
+use crate::scene::{Friction, Road, Scene};
 
 /// A body in the device's numbers.
 pub struct Prepared {
@@ -51,7 +51,7 @@ impl Prepared {
             element: model.element,
             law: model.law,
             viscous: model.viscosity.is_some(),
-            road: scene.road.is_some(),
+            road: scene.road.as_ref().map(Road::name),
             friction: scene.friction,
             held: !model.mesh.held.is_empty(),
             gravity: scene.gravity != [0.0; 3],
@@ -63,7 +63,7 @@ impl Prepared {
             lattice: chains.lattice.is_some(),
             joined: chains.is_joined(),
         };
-        let counts = Counts::of(&model, &chains, choice.road, gpu.report.workgroups);
+        let counts = Counts::of(&model, &chains, choice.road.is_some(), gpu.report.workgroups);
         let grain = frame::grain(&model.mesh);
         Ok(Prepared {
             mesh,

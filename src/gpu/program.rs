@@ -2,7 +2,7 @@
 
 use super::Gpu;
 use super::buffers::Slice;
-use super::compose::{Choice, Kernel, capabilities};
+use super::compose::{self, Choice, Composed, Kernel, capabilities};
 use super::layout::{Real, Step, Wgsl};
 use crate::error::Result;
 use naga::valid::{GlobalUse, ValidationFlags, Validator};
@@ -108,22 +108,16 @@ impl Program {
     /// Composes and compiles a kernel, or takes it from those compiled before; of `constants` those the module
     /// declares are set.
     pub fn new(gpu: &Gpu, choice: &Choice, kernel: Kernel, constants: &[(&str, f64)]) -> Result<Program> {
-        let module = choice.module(kernel)?;
-        Program::of_module(gpu, (choice.text(kernel), module), &format!("{kernel:?}"), constants)
+        Program::of(gpu, choice.compose(kernel)?, kernel.name(), constants)
     }
 
-    /// A program of one file, composed with nothing.
-    pub fn alone(gpu: &Gpu, label: &str, text: &str, constants: &[(&str, f64)]) -> Result<Program> {
-        let module = naga::front::wgsl::parse_str(text).map_err(|e| gpu.error(e.emit_to_string(text)))?;
-        Program::of_module(gpu, (text.to_string(), module), label, constants)
+    /// The program of an entry point that depends on no scene, such as `bench/copy`.
+    pub fn plain(gpu: &Gpu, entry: &str, real: Real, constants: &[(&str, f64)]) -> Result<Program> {
+        Program::of(gpu, compose::plain(entry, real)?, entry, constants)
     }
 
-    fn of_module(
-        gpu: &Gpu,
-        (text, module): (String, naga::Module),
-        label: &str,
-        constants: &[(&str, f64)],
-    ) -> Result<Program> {
+    fn of(gpu: &Gpu, composed: Composed, label: &str, constants: &[(&str, f64)]) -> Result<Program> {
+        let Composed { text, module, .. } = composed;
         let declared = |name: &str| module.overrides.iter().any(|(_, o)| o.name.as_deref() == Some(name));
         let constants: Vec<(&str, f64)> = constants.iter().copied().filter(|(n, _)| declared(n)).collect();
         let bits = constants.iter().map(|(name, value)| (name.to_string(), value.to_bits())).collect();

@@ -3,7 +3,6 @@
 use super::Gpu;
 use super::buffers::{Buffers, Slice};
 use super::compose::{Choice, Kernel, RimKind};
-use super::engine::canonical;
 use super::ensemble::Seat;
 use super::program::Program;
 use super::resident::Shape;
@@ -94,16 +93,15 @@ impl StagePrograms {
         let choice = choice.for_stage(setup);
         let constants = [constants, &stage_constants(setup, rim)].concat();
         let program = |kernel| Program::new(gpu, &choice, kernel, &constants);
-        let of = |name: &str| buffers.get(canonical(name));
-        let of_probe =
-            |name: &str| buffers.get(if name == "rim_state" { "rim_state_probe" } else { canonical(name) });
+        let of = |name: &str| buffers.get(name);
+        let of_probe = |name: &str| buffers.get(if name == "rim_state" { "rim_state_probe" } else { name });
         let (rim, probe_rim) = if choice.rim == RimKind::Free {
             let rim = program(Kernel::Rim)?;
             (Some(Bound::new(gpu, rim.clone(), of)), Some(Bound::new(gpu, rim, of_probe)))
         } else {
             (None, None)
         };
-        let boundary = if choice.road || choice.rim != RimKind::None {
+        let boundary = if choice.road.is_some() || choice.rim != RimKind::None {
             Some(Bound::new(gpu, program(Kernel::Boundary)?, of))
         } else {
             None

@@ -85,9 +85,9 @@ pub fn tables(model: &Model, chains: &Chains, choice: &Choice) -> Vec<Table> {
     }
     let arm = |&n: &u32| vec4(std::array::from_fn(|d| mesh.nodes[n as usize][d] - mesh.axle[d]));
     let arms: Vec<[f64; 4]> = mesh.rim.iter().map(arm).collect();
-    let surface = if choice.road { &mesh.surface[..] } else { &[] };
+    let surface = if choice.road.is_some() { &mesh.surface[..] } else { &[] };
     all.extend([
-        table("roles", bytemuck::cast_slice(&roles(model, choice.road))),
+        table("roles", bytemuck::cast_slice(&roles(model, choice.road.is_some()))),
         table("rim_nodes", bytemuck::cast_slice(&mesh.rim)),
         table("rim_arms", &encode(real, &arms)),
         table("surface_nodes", bytemuck::cast_slice(surface)),
@@ -183,7 +183,7 @@ pub fn fill(
 ) {
     let (mesh, real) = (&model.mesh, choice.precision.real());
     let write = |b: &Buffers, name: &str, bytes: &[u8]| b.get(name).write(gpu, bytes);
-    let (hi, lo) = split(&mesh.nodes, frame, &masses(model, choice.road), choice.precision);
+    let (hi, lo) = split(&mesh.nodes, frame, &masses(model, choice.road.is_some()), choice.precision);
     write(b, "positions", &encode(real, &hi));
     if choice.precision.has_pairs() {
         write(b, "positions_lo", &encode(real, &lo));

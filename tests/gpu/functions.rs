@@ -1,4 +1,4 @@
-//! What WGSL has no double-precision function for, by itself: shaders/real/*_double.wgsl.
+//! What WGSL has no double-precision function for, by itself: shaders/real/double.wgsl.
 
 use crate::rig::note;
 use hexroll::gpu::Gpu;
@@ -22,9 +22,8 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
 
 /// Eight numbers for each argument, as the shader computes them.
 fn computed(gpu: &Gpu, arguments: &[f64]) -> Vec<[f64; 8]> {
-    let parts = ["double", "exp_double", "log_double", "turn_double", "recip_cbrt_double"];
-    let source = |part: &str| PARTS.iter().find(|(name, _)| *name == format!("real/{part}")).unwrap().1;
-    let text: String = parts.iter().map(|part| source(part)).chain([MAIN]).collect();
+    let (_, double) = PARTS.iter().find(|(name, _)| *name == "real/double").unwrap();
+    let text = [double, MAIN].concat();
     let source = wgpu::ShaderSource::Wgsl(text.into());
     let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
     let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {

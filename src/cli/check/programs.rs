@@ -8,10 +8,10 @@ use serde::Serialize;
 
 use crate::engine::StageSetup;
 use crate::gpu::chains::{self, Chains};
-use crate::gpu::compose::{Choice, Kernel, RimKind};
+use crate::gpu::compose::{Choice, Composed, Kernel, RimKind};
 use crate::gpu::{Counts, Precision, Shape, order};
 use crate::model::Model;
-use crate::scene::{Drive, Scene};
+use crate::scene::{Drive, Road, Scene};
 use crate::{Error, Result};
 
 /// Threads and memory [bytes] of a work group that every GPU of a desktop has at least.
@@ -37,7 +37,7 @@ pub struct Program {
     /// When it is dispatched.
     pub runs: &'static str,
     /// Files it is composed of.
-    pub parts: Vec<&'static str>,
+    pub parts: Vec<String>,
     pub functions: usize,
     pub bindings: Vec<Binding>,
     /// WGSL, as the parts are joined.
@@ -106,7 +106,7 @@ impl GpuPlan {
             let small = Shape::within(THREADS, MEMORY, &chains, model.node_count()).is_some();
             for (kernel, runs) in stage_kernels(&choice, small) {
                 let new = program(&choice, kernel, runs)?;
-                match programs.iter_mut().find(|p| p.parts == new.parts) {
+                match programs.iter_mut().find(|p| p.kernel == new.kernel && p.source == new.source) {
                     Some(known) => known.stages.push(stage.name.clone()),
                     None => programs.push(Program { stages: vec![stage.name.clone()], ..new }),
                 }
@@ -123,7 +123,7 @@ fn choice(scene: &Scene, model: &Model, chains: &Chains) -> Choice {
         element: scene.body.element,
         law: scene.body.law,
         viscous: scene.body.viscosity.is_some(),
-        road: scene.road.is_some(),
+        road: scene.road.as_ref().map(Road::name),
         friction: scene.friction,
         held: !scene.holds.is_empty(),
         gravity: scene.gravity != [0.0; 3],
@@ -153,7 +153,7 @@ fn scene_kernels(scene: &Scene) -> Vec<(Kernel, &'static str)> {
 /// Programs that depend on the stage's damping and rim.
 fn stage_kernels(choice: &Choice, small: bool) -> Vec<(Kernel, &'static str)> {
     let mut kernels = vec![(Kernel::Node, "every step"), (Kernel::NodeProbe, "every window")];
-    if choice.road || choice.rim != RimKind::None {
+    if choice.road.is_some() || choice.rim != RimKind::None {
         kernels.insert(1, (Kernel::Boundary, "every step"));
     }
     if choice.rim == RimKind::Free {
@@ -168,24 +168,20 @@ fn stage_kernels(choice: &Choice, small: bool) -> Vec<(Kernel, &'static str)> {
 }
 
 fn program(choice: &Choice, kernel: Kernel, runs: &'static str) -> Result<Program> {
-    let parts = choice.parts(kernel);
-    let file = parts.iter().find_map(|part| part.strip_prefix("kernels/")).unwrap_or("?");
-    // The node kernel with other nodes.
-    let entry = if kernel == Kernel::Boundary { "boundary" } else { file };
-    let module = choice.module(kernel)?;
+    let Composed { parts, text, module } = choice.compose(kernel)?;
     Ok(Program {
-        kernel: entry.into(),
+        kernel: kernel.name().into(),
         stages: Vec::new(),
         runs,
         functions: module.functions.len(),
-        bindings: bindings(&module)?,
+        bindings: bindings(&module),
         parts,
-        source: choice.text(kernel),
+        source: text,
     })
 }
 
 /// Bindings of a module, in their order.
-fn bindings(module: &Module) -> Result<Vec<Binding>> {
+fn bindings(module: &Module) -> Vec<Binding> {
     let mut found = Vec::new();
     for (_, variable) in module.global_variables.iter() {
         let Some(resource) = &variable.binding else { continue };
@@ -202,21 +198,14 @@ fn bindings(module: &Module) -> Result<Vec<Binding>> {
         found.push(Binding { binding: resource.binding, name, access, stride, array });
     }
     found.sort_by_key(|b| b.binding);
-    let double = found.windows(2).find(|pair| pair[0].binding == pair[1].binding);
-    match double {
-        None => Ok(found),
-        Some(pair) => Err(Error::Device {
-            adapter: "shader composition".into(),
-            detail: format!("{} and {} share binding {}", pair[0].name, pair[1].name, pair[0].binding),
-        }),
-    }
+    found
 }
 
-/// Buffers behind the bindings: programs that read what others write call the same buffer by another name.
+/// Buffers behind the bindings.
 fn buffers(programs: &[Program], model: &Model, chains: &Chains) -> Vec<Buffer> {
     let mut by_name: BTreeMap<&str, Buffer> = BTreeMap::new();
     for binding in programs.iter().flat_map(|p| &p.bindings) {
-        let name = binding.name.trim_end_matches("_in").trim_end_matches("_now");
+        let name = binding.name.as_str();
         let entries = if binding.array { entries(name, model, chains) } else { Some(1) };
         if let Some(entries) = entries {
             let bytes = entries * u64::from(binding.stride);

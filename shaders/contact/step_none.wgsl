@@ -1,1 +1,0 @@
-fn sum_step(group: u32, lane: u32, contact: vec4r) {}

@@ -1,3 +1,0 @@
-fn damping_work(mass: real, before: vec3r, after: vec3r, way: vec3r) -> real {
-    return dot(damping_force(mass, before, after), way);
-}

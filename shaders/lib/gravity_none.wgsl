@@ -1,3 +1,0 @@
-fn gravity() -> vec3r {
-    return vec3r(0.0);
-}

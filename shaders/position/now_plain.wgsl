@@ -1,6 +1,0 @@
-@group(0) @binding(10) var<storage, read> positions: array<vec4r>;
-
-// Position, and what stands beside it.
-fn load_node(n: u32) -> vec4r {
-    return positions[n];
-}

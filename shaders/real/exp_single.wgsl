@@ -1,3 +1,0 @@
-fn exponential(x: real) -> real {
-    return exp(x);
-}

@@ -1,3 +1,0 @@
-fn logarithm(x: real) -> real {
-    return log(x);
-}
