@@ -442,17 +442,17 @@ fn a_struct_comes_back_from_its_bytes() {
 fn the_largest_kernel_binds_what_adapters_are_asked_for() {
     let (mut most, mut resident) = (0, 0);
     for Composed { choice, kernel, program, .. } in composed() {
-        let bindings = hexroll::gpu::program::bindings(&program.module);
+        let bindings = hexroll::gpu::bindings::bindings(&program.module);
         let indices: Vec<u32> = bindings.iter().map(|b| b.index).collect();
         let dense: Vec<u32> = (0..bindings.len() as u32).collect();
         assert_eq!(indices, dense, "{kernel:?} of {choice:?}");
-        let access = |b: &&hexroll::gpu::program::Binding| {
-            b.kind == hexroll::gpu::program::BindingKind::Storage { writes: true } && !b.written
+        let access = |b: &&hexroll::gpu::bindings::Binding| {
+            b.kind == hexroll::gpu::bindings::BindingKind::Storage { writes: true } && !b.written
         };
         let idle: Vec<&str> = bindings.iter().filter(access).map(|b| b.name.as_str()).collect();
         assert!(idle.is_empty(), "{kernel:?} of {choice:?} binds {idle:?} for writing and only reads them");
-        let storage = |b: &&hexroll::gpu::program::Binding| {
-            matches!(b.kind, hexroll::gpu::program::BindingKind::Storage { .. })
+        let storage = |b: &&hexroll::gpu::bindings::Binding| {
+            matches!(b.kind, hexroll::gpu::bindings::BindingKind::Storage { .. })
         };
         let most = if *kernel == Kernel::Resident { &mut resident } else { &mut most };
         *most = bindings.iter().filter(storage).count().max(*most);

@@ -1,11 +1,10 @@
 //! Elements in chains: the order in which the element pass goes through a mesh, and who gathers from where.
 
+pub use super::lattice::LANES;
 use super::lattice::Lattice;
 use crate::model::Model;
 use std::collections::HashMap;
 
-/// Chains side by side in a work group.
-pub const LANES: usize = 64;
 /// Corners of a face.
 const CORNERS: usize = 4;
 /// Slots of a face of 64 chains that store all corners: from one face of a chain to the next.
@@ -16,9 +15,11 @@ pub const SHARED_CLASSES: usize = 48;
 /// Threads that keep a large GPU busy: where there are fewer elements than that times the length, chains are shorter.
 const BUSY: usize = 65_536;
 
-/// Elements of which a mesh may fit into one work group's memory, and how many threads such a group has to share them.
+/// Elements of which a mesh may fit into one work group's memory.
 const RESIDENT: usize = 2048;
-const THREADS: usize = super::resident::THREADS;
+/// Threads of such a work group, at most: enough for a chain each on small wheels, few enough that each has the registers it
+/// needs (on NVIDIA hardware 65,536 for 384 threads: 168 each; `benches/sass` counts them).
+pub const THREADS: usize = 384;
 
 /// Elements a chain has at most: long ones move less memory, short ones keep more threads busy. A software adapter's
 /// threads are lanes of a few processors, so there the longest are best. In one work group chains are as long as its

@@ -1,11 +1,11 @@
 //! What `f32+` needs of an adapter, tried on it.
 
 use super::Gpu;
+use super::bound::Bound;
 use super::buffers::Buffers;
 use super::compose::{Choice, Kernel};
 use super::program::Program;
 use super::readback::Readback;
-use super::stage::Bound;
 use crate::error::Result;
 
 /// Runs the shader's own compensated sum on numbers whose errors are known exactly.

@@ -1,6 +1,6 @@
 //! Adapters: which there are, which one to take, and a device with what it offers.
 
-use super::program::Programs;
+use super::program::Compiled;
 use crate::error::{Error, Result};
 use std::sync::{Arc, Mutex};
 
@@ -109,7 +109,7 @@ pub struct Gpu {
     /// First error that wgpu reported since the last look.
     errors: Arc<Mutex<Option<String>>>,
     /// Programs compiled so far.
-    pub(super) programs: Programs,
+    pub(super) programs: Compiled,
 }
 
 impl Gpu {
@@ -152,7 +152,7 @@ impl Gpu {
         device.on_uncaptured_error(Arc::new(move |e: wgpu::Error| {
             sink.lock().expect("no one panics holding it").get_or_insert(e.to_string());
         }));
-        Gpu { device, queue, report, checked: cfg!(debug_assertions), errors, programs: Programs::default() }
+        Gpu { device, queue, report, checked: cfg!(debug_assertions), errors, programs: Compiled::default() }
     }
 
     /// The first error that wgpu reported since the last look.

@@ -1,7 +1,9 @@
 //! Meshes whose numbering is a generator's: what tables would say follows from the numbers.
 
-use super::chains::LANES;
 use crate::model::mesh::Mesh;
+
+/// Chains side by side in a work group.
+pub const LANES: usize = 64;
 
 /// Node (i, j, k) is number (k rows + j) row + i; elements likewise; corners 4 to 7 of an element are one k above
 /// corners 0 to 3. Rows are open, or close on themselves.

@@ -1,10 +1,10 @@
 //! What the adapter can do at best, measured: the yardsticks a pass is held against.
 
 use super::Gpu;
+use super::bound::Bound;
 use super::buffers::{Buffers, Slice};
 use super::layout::{Real, encode};
 use super::program::Program;
-use super::stage::Bound;
 use crate::error::Result;
 use std::time::Instant;
 

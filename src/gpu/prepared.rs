@@ -4,7 +4,7 @@ use super::Gpu;
 use super::buffers::{self, Buffers};
 use super::chains::{self, Chains};
 use super::compose::{Choice, RimKind};
-use super::engine::Counts;
+use super::counts::Counts;
 use super::order::{self, Order, Ordered};
 use super::precision::Precision;
 use super::resident::Shape;

@@ -1,13 +1,9 @@
 //! Small meshes: one work group takes many steps in one dispatch, positions and forces in its own memory.
 
 use super::Gpu;
-use super::chains::{Chains, LANES};
+use super::chains::{Chains, LANES, THREADS};
 use super::layout::{Real, Step, Wgsl};
 use std::collections::HashSet;
-
-/// Threads of the work group, at most: enough for a chain each on small wheels, few enough that each has the registers it
-/// needs (on NVIDIA hardware 65,536 for 384 threads: 168 each; `benches/sass` counts them).
-pub const THREADS: usize = 384;
 
 /// Storage buffers that its kernel binds; on adapters with fewer the passes take all meshes.
 pub const RESIDENT_STORAGE_BUFFERS: u32 = 20;

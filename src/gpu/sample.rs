@@ -1,107 +1,64 @@
 //! What a sample brings back: sums of the window, and the step that would come.
 
-use super::Gpu;
-use super::buffers::Buffers;
-use super::compose::{Choice, Kernel};
-use super::engine::{GpuEngine, PARTIALS};
+use super::counts::PARTIALS;
+use super::engine::GpuEngine;
 use super::layout::{Real, RimState, SurfaceRecord, Wgsl, decode};
-use super::program::Program;
+use super::programs::element_groups;
 use super::readback::Readback;
-use super::stage::{Bound, StagePrograms};
 use super::upload::inverse_areas;
 use crate::engine::{Probe, Step, SurfaceSum, Window, Works};
 use crate::error::Result;
 
-/// Sums of records.
-pub struct Reductions {
-    rim: Option<Bound>,
-    viscous: Option<Bound>,
-    probes: Bound,
-    energies: Bound,
-}
-
-impl Reductions {
-    pub fn new(gpu: &Gpu, choice: &Choice, buffers: &Buffers, rim: bool) -> Result<Self> {
-        let make = |records: &'static str, partials: &'static str, width: f64, least: f64| -> Result<Bound> {
-            let constants = [("width", width), ("least_w", least)];
-            let program = Program::new(gpu, choice, Kernel::Reduce, &constants)?;
-            Ok(Bound::new(gpu, program, |name| {
-                buffers.get(if name == "records" { records } else { partials })
-            }))
-        };
-        Ok(Reductions {
-            rim: if rim { Some(make("rim_sums", "partials_rim", 2.0, 0.0)?) } else { None },
-            viscous: if choice.viscous {
-                Some(make("viscous_work", "partials_viscous", 1.0, 0.0)?)
-            } else {
-                None
-            },
-            probes: make("probes", "partials_probes", 4.0, 0.0)?,
-            energies: make("energies", "partials_energies", 1.0, 1.0)?,
-        })
-    }
-}
-
 impl GpuEngine {
     /// Encodes everything a sample needs before it is copied out.
-    fn encode_sample(&self, stage: &StagePrograms, encoder: &mut wgpu::CommandEncoder) {
-        let counts = &self.counts;
+    fn encode_sample(&self, encoder: &mut wgpu::CommandEncoder) {
+        let Self { programs, body, .. } = self;
+        let (counts, stage, sums) = (&body.counts, programs.stage(), &programs.reductions);
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            self.energy.dispatch(&mut pass, self.element_groups(), 0);
-            self.reductions.energies.dispatch(&mut pass, [PARTIALS as u32, 1, 1], 0);
-            if let Some(rim) = &self.reductions.rim {
-                rim.dispatch(&mut pass, [PARTIALS as u32, 2, 1], 0);
-            }
-            if let Some(viscous) = &self.reductions.viscous {
-                viscous.dispatch(&mut pass, [PARTIALS as u32, 1, 1], 0);
-            }
+            programs.energy.dispatch(&mut pass, element_groups(counts), 0);
+            sums.add_energies(&mut pass);
+            sums.add_rim(&mut pass);
+            sums.add_viscous(&mut pass);
         }
-        if self.reductions.viscous.is_some() {
-            let (from, to) = (self.buffers.get("partials_viscous"), self.buffers.get("kept_viscous"));
+        if programs.choice.viscous {
+            let (from, to) = (body.buffers.get("partials_viscous"), body.buffers.get("kept_viscous"));
             from.copy_to(encoder, to);
-            self.buffers.get("viscous_work").clear(encoder);
+            body.buffers.get("viscous_work").clear(encoder);
         }
-        if self.has_free_rim() {
-            let (from, to) = (self.buffers.get("rim_state"), self.buffers.get("rim_state_probe"));
+        if programs.has_free_rim() {
+            let (from, to) = (body.buffers.get("rim_state"), body.buffers.get("rim_state_probe"));
             from.copy_to(encoder, to);
         }
         let mut pass = encoder.begin_compute_pass(&Default::default());
-        self.force.dispatch(&mut pass, self.element_groups(), 0);
+        programs.force.dispatch(&mut pass, element_groups(counts), 0);
         if let Some(rim) = &stage.probe_rim {
             rim.dispatch(&mut pass, [1, 1, 1], 0);
         }
         stage.probe.dispatch(&mut pass, counts.groups(counts.nodes), 0);
-        self.reductions.probes.dispatch(&mut pass, [PARTIALS as u32, 4, 1], 0);
-        if let Some(viscous) = &self.reductions.viscous {
-            viscous.dispatch(&mut pass, [PARTIALS as u32, 1, 1], 0);
-        }
-        if let Some(surface) = &self.surface_state {
+        sums.add_probes(&mut pass);
+        sums.add_viscous(&mut pass);
+        if let Some(surface) = &programs.surface_state {
             surface.dispatch(&mut pass, counts.groups(counts.surface), 0);
         }
     }
 
     fn clear_sums(&self) {
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        let mut encoder = self.body.gpu.device.create_command_encoder(&Default::default());
         for name in ["rim_sums", "surface_sums", "viscous_work"] {
-            self.buffers.get(name).clear(&mut encoder);
+            self.body.buffers.get(name).clear(&mut encoder);
         }
         // The probe may have met the failure that the next step will report.
-        self.gpu.queue.submit([encoder.finish()]);
-        self.reset_failure();
-    }
-
-    pub(super) fn reset_failure(&self) {
-        self.buffers.get("failure").write(&self.gpu, bytemuck::cast_slice(&[u32::MAX; 4]));
+        self.body.gpu.queue.submit([encoder.finish()]);
+        self.body.reset_failure();
     }
 
     /// The window since the last sample, and the probe; see [`Engine::sample`](crate::engine::Engine::sample).
     pub(super) fn take_sample(&mut self, next: &Step) -> Result<Window> {
-        self.restore()?;
+        self.body.restore()?;
         self.ready()?;
-        let stage = self.stage.as_ref().expect("it is ready");
         let half = 0.5 * next.dt_before;
-        let entry = self.plan_entry((self.steps, 0), next, &self.rim.q, [half, 0.0, half]);
+        let entry = self.plan_entry((self.pace.steps, 0), next, &self.rim.q, [half, 0.0, half]);
         self.write_plan(&[entry]);
         let mut read = Readback::default();
         let names = [
@@ -115,26 +72,27 @@ impl GpuEngine {
             "surface_states",
             "rim_state",
         ];
-        let parts = names.map(|n| read.add(self.buffers.get(n)));
-        let data = read.run(&self.gpu, |encoder| self.encode_sample(stage, encoder))?;
+        let parts = names.map(|n| read.add(self.body.buffers.get(n)));
+        let data = read.run(&self.body.gpu, |encoder| self.encode_sample(encoder))?;
         let [rim, viscous, half_viscous, probes, energies, sums, contact, states, rim_state] =
             parts.map(|p| data.part(p));
-        if self.has_free_rim() {
-            self.rim.download(&RimState::take(self.real(), rim_state));
+        if self.programs.has_free_rim() {
+            self.rim.download(&RimState::take(self.body.real(), rim_state));
         }
         let mut window = Window {
-            steps: std::mem::take(&mut self.window_steps),
+            steps: std::mem::take(&mut self.pace.window_steps),
             rim: self.rim.q,
             rim_rate: self.rim.rate,
-            step_contact: std::mem::take(&mut self.step_contact),
+            step_contact: std::mem::take(&mut self.pace.step_contact),
             ..Window::default()
         };
-        let real = self.real();
+        let real = self.body.real();
         let sum = |bytes: &[u8], column: usize| column_sum(real, bytes, column);
         let (e, least) = (sum(energies, 0), least_w(real, energies));
         (window.strain, window.hourglass, window.min_jacobian) = (e[0], e[1], least);
         let (w, r0, r1) = (sum(probes, 3), sum(rim, 0), sum(rim, 1));
-        let total = |bytes: &[u8]| if self.choice.viscous { sum(bytes, 0).iter().sum() } else { 0.0 };
+        let total =
+            |bytes: &[u8]| if self.programs.choice.viscous { sum(bytes, 0).iter().sum() } else { 0.0 };
         window.rim_impulse = [r0[0], r0[1], r0[2]];
         window.rim_moment_impulse = [r1[0], r1[1], r1[2]];
         window.works = Works {
@@ -163,7 +121,7 @@ impl GpuEngine {
         };
         window.works.internal -= window.works.viscous;
         window.probe.half_works.internal -= window.probe.half_works.viscous;
-        if self.counts.surface > 0 {
+        if self.body.counts.surface > 0 {
             self.read_surface(&mut window, [sums, contact, states]);
             self.refresh_areas(&window);
         }
@@ -181,20 +139,20 @@ impl GpuEngine {
             // A rim node beside the surface: its facet faces no road.
             Err(_) => mesh.nodes[n as usize],
         };
-        let areas = inverse_areas(mesh, at, road, self.real());
-        self.buffers.get("inverse_areas").write(&self.gpu, &areas);
+        let areas = inverse_areas(mesh, at, road, self.body.real());
+        self.body.buffers.get("inverse_areas").write(&self.body.gpu, &areas);
     }
 
     fn read_surface(&self, window: &mut Window, [sums, contact, states]: [&[u8]; 3]) {
-        let sums: Vec<SurfaceRecord> = decode(self.real(), sums);
+        let sums: Vec<SurfaceRecord> = decode(self.body.real(), sums);
         let contact: &[u32] = bytemuck::cast_slice(contact);
-        let states: Vec<[f64; 4]> = decode(self.real(), states);
-        for (k, record) in sums.iter().take(self.surface_nodes.len()).enumerate() {
+        let states: Vec<[f64; 4]> = decode(self.body.real(), states);
+        for (k, record) in sums.iter().take(self.body.counts.surface).enumerate() {
             let [x, v] = [states[2 * k], states[2 * k + 1]];
             window.works.normal += record.normal_work;
             window.works.friction += record.friction_work;
             window.surface.push(SurfaceSum {
-                x: std::array::from_fn(|d| x[d] + self.frame[d]),
+                x: std::array::from_fn(|d| x[d] + self.body.frame[d]),
                 v: [v[0], v[1], v[2]],
                 impulse: [0, 1, 2].map(|d| record.impulse[d]),
                 friction_work: record.friction_work,

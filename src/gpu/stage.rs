@@ -1,9 +1,10 @@
 //! Programs that depend on the stage: the node pass, its probe, and the free rim.
 
 use super::Gpu;
-use super::buffers::{Buffers, Slice};
+use super::bound::Bound;
+use super::buffers::Buffers;
 use super::compose::{Choice, Kernel, RimKind};
-use super::ensemble::Seat;
+use super::meeting::Seat;
 use super::program::Program;
 use super::resident::Shape;
 use super::rim::FreeRim;
@@ -11,60 +12,6 @@ use crate::engine::StageSetup;
 use crate::error::Result;
 use crate::physics::rim::SPIN;
 use std::sync::Arc;
-
-/// Arrays by node, and the slots and lists by which nodes gather.
-const BY_NODE: [&str; 9] =
-    ["positions", "positions_lo", "velocities", "works", "held", "roles", "slots", "corner_start", "corners"];
-
-/// Arrays of which a step touches an entry or none: its own place among the steps, the names of elements that fail.
-const SELDOM: [&str; 3] = ["contact_steps", "plan", "chain_elements"];
-
-/// A program with its buffers.
-pub struct Bound {
-    program: Program,
-    group: wgpu::BindGroup,
-    /// Bytes of the bindings it reads, plus those it writes: of arrays by node or slot, and of all others.
-    touched: [u64; 2],
-}
-
-impl Bound {
-    pub fn new<'b>(gpu: &Gpu, program: Program, of: impl Fn(&str) -> &'b Slice) -> Bound {
-        let group = program.bind(gpu, |name| of(name).clone());
-        Bound::with(program, group, of)
-    }
-
-    /// With the whole buffers of those given, where they are parts: of all bodies.
-    pub fn of_all<'b>(gpu: &Gpu, program: Program, of: impl Fn(&str) -> &'b Slice) -> Bound {
-        let group = program.bind(gpu, |name| of(name).all());
-        Bound::with(program, group, of)
-    }
-
-    fn with<'b>(program: Program, group: wgpu::BindGroup, of: impl Fn(&str) -> &'b Slice) -> Bound {
-        let mut touched = [0; 2];
-        for b in program.bindings.iter().filter(|b| !SELDOM.contains(&&*b.name)) {
-            touched[usize::from(!BY_NODE.contains(&&*b.name))] += b.touched(of(&b.name).used());
-        }
-        Bound { program, group, touched }
-    }
-
-    /// Whether it is the same pipeline.
-    pub fn is_same(&self, other: &Bound) -> bool {
-        self.program.pipeline == other.program.pipeline
-    }
-
-    /// Bytes that a pass moves which meets `share` of all nodes, every entry of an array once.
-    pub fn bytes(&self, share: f64) -> u64 {
-        (share * self.touched[0] as f64) as u64 + self.touched[1]
-    }
-
-    /// Records one dispatch; `offset` into the plan is not read by programs without a step.
-    pub fn dispatch(&self, pass: &mut wgpu::ComputePass, groups: [u32; 3], offset: u32) {
-        pass.set_pipeline(&self.program.pipeline);
-        let offsets: &[u32] = if self.program.has_step() { &[offset] } else { &[] };
-        pass.set_bind_group(0, &self.group, offsets);
-        pass.dispatch_workgroups(groups[0], groups[1], groups[2]);
-    }
-}
 
 /// The stage's programs.
 pub struct StagePrograms {
@@ -80,7 +27,7 @@ pub struct StagePrograms {
 }
 
 impl StagePrograms {
-    /// Composes what a stage needs.
+    /// Composes what a stage needs; `choice`: the stage's own.
     pub fn new(
         gpu: &Gpu,
         choice: &Choice,
@@ -90,9 +37,8 @@ impl StagePrograms {
         rim: &FreeRim,
         resident: Option<(Shape, Option<&Seat>)>,
     ) -> Result<StagePrograms> {
-        let choice = choice.for_stage(setup);
         let constants = [constants, &stage_constants(setup, rim)].concat();
-        let program = |kernel| Program::new(gpu, &choice, kernel, &constants);
+        let program = |kernel| Program::new(gpu, choice, kernel, &constants);
         let of = |name: &str| buffers.get(name);
         let of_probe = |name: &str| buffers.get(if name == "rim_state" { "rim_state_probe" } else { name });
         let (rim, probe_rim) = if choice.rim == RimKind::Free {
@@ -109,7 +55,7 @@ impl StagePrograms {
         let resident = match resident {
             Some((shape, seat)) if choice.rim != RimKind::Free => {
                 let constants = [&constants[..], &shape.constants()].concat();
-                let program = Program::new(gpu, &choice, Kernel::Resident, &constants)?;
+                let program = Program::new(gpu, choice, Kernel::Resident, &constants)?;
                 let made = Bound::of_all(gpu, program, of);
                 Some(match seat {
                     Some(seat) => seat.program(made),

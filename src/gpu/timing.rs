@@ -3,6 +3,7 @@
 use super::Gpu;
 use super::buffers::Slice;
 use super::engine::GpuEngine;
+use super::programs::Pass;
 use super::readback::Readback;
 use crate::engine::Step;
 use crate::error::Result;
@@ -43,7 +44,7 @@ impl GpuEngine {
     /// Those of `advance`.
     pub fn timed_advance(&mut self, steps: &[Step]) -> Result<PassTimes> {
         let begun = Instant::now();
-        let stamps = self.gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
+        let stamps = self.body.gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
         let mut seconds: Vec<f64> = Vec::new();
         self.in_submissions(steps, |engine, steps, starts| {
             for (steps, starts) in steps.chunks(STEPS).zip(starts.chunks(STEPS)) {
@@ -54,7 +55,7 @@ impl GpuEngine {
             Ok(())
         })?;
         let wall = begun.elapsed().as_secs_f64();
-        let time = |(k, pass): (usize, super::steps::Pass)| PassTime {
+        let time = |(k, pass): (usize, Pass)| PassTime {
             kernel: pass.name.to_string(),
             seconds: if stamps { seconds.get(k).copied() } else { None },
             bytes: pass.program.bytes(pass.share),
@@ -62,19 +63,19 @@ impl GpuEngine {
         let passes = if steps.is_empty() {
             Vec::new()
         } else {
-            self.passes().into_iter().enumerate().map(time).collect()
+            self.programs.passes(&self.body.counts).into_iter().enumerate().map(time).collect()
         };
-        Ok(PassTimes { passes, steps: steps.len() as u64, wall, steps_per_submit: self.steps_per_submit })
+        Ok(PassTimes { passes, steps: steps.len() as u64, wall, steps_per_submit: self.pace.per_submit })
     }
 
     /// Submits the steps with every dispatch in a pass of its own; seconds by pass.
     fn submit_timed(&mut self, steps: &[Step], starts: &[Coordinates], stamps: bool) -> Result<Vec<f64>> {
         self.write_steps(steps, starts);
         self.write_member(steps.len());
-        let passes = self.passes();
+        let passes = self.programs.passes(&self.body.counts);
         let rounds = self.rounds(steps.len());
-        let clock = Clock::new(&self.gpu, passes.len() * rounds);
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        let clock = Clock::new(&self.body.gpu, passes.len() * rounds);
+        let mut encoder = self.body.gpu.device.create_command_encoder(&Default::default());
         for slot in 0..rounds {
             for (k, pass) in passes.iter().enumerate() {
                 let timestamp_writes = stamps.then(|| clock.writes(slot * passes.len() + k));
@@ -82,10 +83,11 @@ impl GpuEngine {
                 pass.dispatch(&mut encoder.begin_compute_pass(&descriptor), slot);
             }
         }
-        let each = clock.read(&self.gpu, encoder)?;
+        let each = clock.read(&self.body.gpu, encoder)?;
         let sum = |k: usize| each.iter().skip(k).step_by(passes.len()).sum();
         let seconds = (0..passes.len()).map(sum).collect();
-        let taken = self.take(self.gpu.device.create_command_encoder(&Default::default()), steps.len())?;
+        let taken =
+            self.take(self.body.gpu.device.create_command_encoder(&Default::default()), steps.len())?;
         self.took(steps, &taken);
         Ok(seconds)
     }

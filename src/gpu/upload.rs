@@ -4,7 +4,7 @@ use super::Gpu;
 use super::buffers::{self, Buffers, PLAN, part_stride, step_stride, vec4};
 use super::chains::{Chains, LANES};
 use super::compose::Choice;
-use super::engine::{Counts, PARTIALS};
+use super::counts::{Counts, PARTIALS};
 use super::layout::{self, Member, Real, RimSum, SurfaceRecord, Wgsl, encode};
 use super::precision::Precision;
 use crate::model::mesh::Mesh;

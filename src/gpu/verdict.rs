@@ -1,7 +1,48 @@
-//! What the device says after a submission: which step failed, and whether the last pass ran at all.
+//! What the device says after a submission: contact of each step, which step failed, and whether the last pass ran at all.
 
-use crate::engine::Step;
+use super::layout::{Real, decode};
+use crate::engine::{Step, StepContact};
 use crate::error::{Error, Result};
+
+/// First failing step with its element, and the last step taken, as the device has them.
+#[derive(Debug, Clone, Copy)]
+pub struct Flags {
+    pub failure: [u32; 2],
+    pub done: u32,
+}
+
+/// Before any step.
+pub const NO_FLAGS: Flags = Flags { failure: [u32::MAX; 2], done: u32::MAX };
+
+/// What the device says of the steps of a submission.
+pub struct Taken {
+    /// Contact by step and work group.
+    pub contact: Vec<[f64; 4]>,
+    pub flags: Flags,
+    /// How long it took [s].
+    pub seconds: f64,
+}
+
+impl Taken {
+    /// From the bytes of contact, failure and sentinel.
+    pub fn of([contact, failure, done]: [&[u8]; 3], real: Real, seconds: f64) -> Taken {
+        let word = |bytes: &[u8], k: usize| bytemuck::cast_slice::<u8, u32>(bytes)[k];
+        let flags = Flags { failure: [word(failure, 0), word(failure, 1)], done: word(done, 0) };
+        Taken { contact: decode(real, contact), flags, seconds }
+    }
+}
+
+/// Contact over the body in one step from its sums by work groups, as shaders/contact/book.wgsl packs them.
+pub fn step_contact(step: &Step, sums: &[[f64; 4]]) -> StepContact {
+    let mut all = StepContact { dtm: step.dtm(), ..StepContact::default() };
+    for sum in sums {
+        all.force.iter_mut().zip(sum).for_each(|(f, s)| *f += s);
+        let counts = sum[3] as u32;
+        all.touching += counts % 4096;
+        all.changes += counts / 4096;
+    }
+    all
+}
 
 /// The error in the device's failure record `[step, 2 element + (1: not finite)]`, in which all bits set means none.
 /// `steps` are those taken since `first`.

@@ -9,13 +9,14 @@ pub mod numbering;
 mod roles;
 pub mod scan;
 
+use super::bindings::capabilities;
 use super::layout::{self, Real};
 use super::precision::Precision;
 use crate::error::{Error, Result};
 use crate::scene::{Element, Friction, Law};
 use closure::{Fault, Part, Reached};
 use naga::keywords::wgsl::{BUILTIN_IDENTIFIER_SET, RESERVED_SET};
-use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::valid::{ValidationFlags, Validator};
 use numbering::Numbered;
 use roles::Filled;
 use std::collections::BTreeMap;
@@ -132,11 +133,6 @@ pub struct Composed {
     pub text: String,
     /// The same, valid, without anything that the entry point does not reach.
     pub module: naga::Module,
-}
-
-/// What a shader may use: what every adapter has, and doubles.
-pub(super) fn capabilities() -> Capabilities {
-    Capabilities::default() | Capabilities::FLOAT64
 }
 
 impl Choice {

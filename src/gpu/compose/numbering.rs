@@ -1,7 +1,7 @@
 //! Numbers for the buffers of a program: parts declare them without, writable and under one name everywhere.
 
-use super::capabilities;
 use crate::error::Result;
+use crate::gpu::bindings::capabilities;
 use naga::valid::{GlobalUse, ValidationFlags, Validator};
 use naga::{AddressSpace, ResourceBinding, StorageAccess};
 
