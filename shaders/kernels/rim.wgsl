@@ -80,7 +80,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     for (var k = lane; k < arrayLength(&rim_nodes); k += 64u) {
         let n = rim_nodes[k];
         let here = load_node(n);
-        let f = abs(here.w) * gravity() - gather(n);
+        let f = here.w * gravity() - gather(n);
         force += f;
         moment += cross(here.xyz - rim_state.axle.xyz, f);
     }

@@ -1,8 +1,9 @@
 // Every buffer that parts share. A program binds those it reaches, numbered by the composer, and those it does not write for
 // reading only. Vectors stand alone in four numbers.
 
-// By node: position and mass, negative if the node can touch the road or belongs to the rim; what hi + lo positions have
-// beside it; velocity and the work of the internal force in this window.
+// By node: position and mass; what hi + lo positions have beside it; velocity and the work of the internal force in this
+// window. The mass and the work stand in fourth components that are loaded and stored anyway: an array for the work would
+// add 8 bytes to the 163 that a step moves for an element, 237 where slots are not joined (docs/gpu-design.md).
 var<storage, read_write> positions: array<vec4r>;
 var<storage, read_write> positions_lo: array<vec4r>;
 var<storage, read_write> velocities: array<vec4r>;
@@ -13,8 +14,9 @@ var<storage, read_write> held: array<u32>;
 // INTERIOR, RIM and the node's number among the rim's nodes, or its number among those of the surface.
 var<storage, read_write> roles: array<u32>;
 
-// Nodes that can touch the road, then those of the rim.
+// The nodes that can touch the road, then those of the rim; and the same as bits: bit n % 32 of word n / 32.
 var<storage, read_write> boundary: array<u32>;
+var<storage, read_write> boundary_bits: array<u32>;
 var<storage, read_write> surface_nodes: array<u32>;
 var<storage, read_write> rim_nodes: array<u32>;
 // From the axle to each rim node in the reference shape.

@@ -1,4 +1,4 @@
-// What a node is. Its mass stands beside its position, negative if the node can touch the road or belongs to the rim.
+// What a node is: its mass, which stands beside its position, and its role.
 
 const INTERIOR: u32 = 0xffffffffu;
 const RIM: u32 = 0x80000000u;

@@ -1,9 +1,9 @@
 // One node, one step; its contact.
 fn take_step(n: u32) -> vec4r {
-    let here = load_node(n);
-    if is_left_out(here.w) {
+    if is_left_out(n) {
         return vec4r(0.0);
     }
+    let here = load_node(n);
     let node = node_of(n, here.w);
     let f_int = moving(n, gather(n));
     let x = here.xyz;

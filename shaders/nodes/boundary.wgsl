@@ -8,10 +8,10 @@ fn node_at(thread: u32) -> u32 {
     return boundary[thread];
 }
 
-fn is_left_out(mass: real) -> bool {
+fn is_left_out(n: u32) -> bool {
     return false;
 }
 
 fn node_of(n: u32, mass: real) -> Node {
-    return Node(abs(mass), roles[n]);
+    return Node(mass, roles[n]);
 }

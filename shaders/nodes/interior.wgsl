@@ -8,8 +8,8 @@ fn node_at(thread: u32) -> u32 {
     return thread;
 }
 
-fn is_left_out(mass: real) -> bool {
-    return mass < 0.0;
+fn is_left_out(n: u32) -> bool {
+    return ((boundary_bits[n / 32u] >> (n % 32u)) & 1u) != 0u;
 }
 
 fn node_of(n: u32, mass: real) -> Node {

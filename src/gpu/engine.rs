@@ -83,7 +83,7 @@ impl GpuEngine {
                 counts,
                 precision: choice.precision,
                 order,
-                masses: upload::masses(&model, choice.road.is_some()),
+                masses: model.mass.clone(),
                 frame,
                 lent: None,
             },

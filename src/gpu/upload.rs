@@ -17,7 +17,7 @@ const RIM: u32 = 0x8000_0000;
 
 /// Words of a body's flags.
 const FLAGS: usize = 4;
-/// Bodies of one dispatch at most, as in shaders/lib/member.wgsl.
+/// Bodies of one dispatch at most, as in shaders/body/resident.wgsl.
 pub const MEMBERS: usize = 512;
 
 /// The part of the body number `body` of a dispatch in which it takes `steps`.
@@ -86,12 +86,14 @@ pub fn tables(model: &Model, chains: &Chains, choice: &Choice) -> Vec<Table> {
     let arm = |&n: &u32| vec4(std::array::from_fn(|d| mesh.nodes[n as usize][d] - mesh.axle[d]));
     let arms: Vec<[f64; 4]> = mesh.rim.iter().map(arm).collect();
     let surface = if choice.road.is_some() { &mesh.surface[..] } else { &[] };
+    let boundary = [surface, &mesh.rim].concat();
     all.extend([
         table("roles", bytemuck::cast_slice(&roles(model, choice.road.is_some()))),
         table("rim_nodes", bytemuck::cast_slice(&mesh.rim)),
         table("rim_arms", &encode(real, &arms)),
         table("surface_nodes", bytemuck::cast_slice(surface)),
-        table("boundary", bytemuck::cast_slice(&[surface, &mesh.rim].concat())),
+        table("boundary", bytemuck::cast_slice(&boundary)),
+        table("boundary_bits", bytemuck::cast_slice(&bits(&boundary, model.node_count()))),
     ]);
     if choice.held {
         let bits: Vec<u32> = mesh.held.iter().map(|&bits| u32::from(bits)).collect();
@@ -183,7 +185,7 @@ pub fn fill(
 ) {
     let (mesh, real) = (&model.mesh, choice.precision.real());
     let write = |b: &Buffers, name: &str, bytes: &[u8]| b.get(name).write(gpu, bytes);
-    let (hi, lo) = split(&mesh.nodes, frame, &masses(model, choice.road.is_some()), choice.precision);
+    let (hi, lo) = split(&mesh.nodes, frame, &model.mass, choice.precision);
     write(b, "positions", &encode(real, &hi));
     if choice.precision.has_pairs() {
         write(b, "positions_lo", &encode(real, &lo));
@@ -215,12 +217,11 @@ pub fn split(
     x.iter().zip(masses).map(pair).unzip()
 }
 
-/// Mass of each node [kg], negative if it can touch the road or belongs to the rim.
-pub fn masses(model: &Model, road: bool) -> Vec<f64> {
-    let mut masses = model.mass.clone();
-    let surface = if road { &model.mesh.surface[..] } else { &[] };
-    surface.iter().chain(&model.mesh.rim).for_each(|&n| masses[n as usize] *= -1.0);
-    masses
+/// The given ones of so many nodes, as bits: bit n % 32 of word n / 32.
+fn bits(nodes: &[u32], count: usize) -> Vec<u32> {
+    let mut words = vec![0; count.div_ceil(32)];
+    nodes.iter().for_each(|n| words[*n as usize / 32] |= 1 << (n % 32));
+    words
 }
 
 fn roles(model: &Model, road: bool) -> Vec<u32> {
