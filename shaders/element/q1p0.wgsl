@@ -1,6 +1,6 @@
 // 2x2x2 points and one mean-dilatation pressure; twin of src/physics/element/q1p0.rs.
 
-// Of A at a point, in the words of lib/points, so that a compiler sees what it has already.
+// Of A at a point, in the words of gradient/points, so that a compiler sees what it has already.
 fn det_at(a: mat3x3r) -> real {
     return dot(a[0], cross(a[1], a[2]));
 }

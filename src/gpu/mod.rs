@@ -10,6 +10,7 @@
 //!   -> buffers, counts, resident       what is bound; how many; small meshes in one work group
 //!   -> upload -> prepared              what a body becomes on the device
 //!   -> bound, readback -> meeting      programs with their buffers; bodies that step together
+//!   -> check, limits, rim              what an adapter can do; the rim on the host
 //!   -> stage -> programs, body         everything there is to dispatch; a body's state
 //!   -> engine                          body, programs, pace
 //!   -> steps -> sample, trial, timing  what it does
@@ -54,5 +55,6 @@ pub use device::{AdapterReport, Gpu, STORAGE_BUFFERS, adapters};
 pub use engine::GpuEngine;
 pub use ensemble::{advance_together, ensemble};
 pub use precision::Precision;
+pub use prepared::choice;
 pub use resident::{RESIDENT_STORAGE_BUFFERS, Shape};
 pub use timing::{PassTime, PassTimes};

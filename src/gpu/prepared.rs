@@ -14,6 +14,26 @@ use crate::model::mesh::Mesh;
 use crate::model::{Model, frame};
 use crate::scene::{Friction, Road, Scene};
 
+/// What a body of this scene needs of every kernel, before a stage says more.
+pub fn choice(model: &Model, scene: &Scene, chains: &Chains, precision: Precision) -> Choice {
+    Choice {
+        element: model.element,
+        law: model.law,
+        viscous: model.viscosity.is_some(),
+        road: scene.road.as_ref().map(Road::name),
+        friction: scene.friction,
+        held: !model.mesh.held.is_empty(),
+        gravity: scene.gravity != [0.0; 3],
+        damping: false,
+        rim: if model.mesh.rim.is_empty() { RimKind::None } else { RimKind::Prescribed },
+        precision,
+        extruded: model.is_extruded(),
+        shared_classes: chains.shared_classes,
+        lattice: chains.lattice.is_some(),
+        joined: chains.is_joined(),
+    }
+}
+
 /// A body in the device's numbers.
 pub struct Prepared {
     pub model: Model,
@@ -47,22 +67,7 @@ impl Prepared {
             !gpu.report.software,
         );
         buffers::check_limits(gpu, &model, &chains, scene.road.is_some(), real)?;
-        let choice = Choice {
-            element: model.element,
-            law: model.law,
-            viscous: model.viscosity.is_some(),
-            road: scene.road.as_ref().map(Road::name),
-            friction: scene.friction,
-            held: !model.mesh.held.is_empty(),
-            gravity: scene.gravity != [0.0; 3],
-            damping: false,
-            rim: if model.mesh.rim.is_empty() { RimKind::None } else { RimKind::Prescribed },
-            precision,
-            extruded: model.is_extruded(),
-            shared_classes: chains.shared_classes,
-            lattice: chains.lattice.is_some(),
-            joined: chains.is_joined(),
-        };
+        let choice = choice(&model, scene, &chains, precision);
         let counts = Counts::of(&model, &chains, choice.road.is_some(), gpu.report.workgroups);
         let grain = frame::grain(&model.mesh);
         Ok(Prepared {

@@ -70,11 +70,11 @@ fn programs_hold_only_what_the_scene_uses() {
     place.scene("block.toml", |text| text);
     let full = check(&place, &["block.toml"]);
     let parts = strings(&program(&full, "boundary")["parts"]);
-    assert!(parts.contains(&"friction/coulomb") && parts.contains(&"lib/gravity"), "{parts:?}");
+    assert!(parts.contains(&"friction/coulomb") && parts.contains(&"gravity/uniform"), "{parts:?}");
     assert!(bindings(&full, "boundary").contains(&"surface_sums".into()));
     // Nodes inside the body meet no road.
     let inside = strings(&program(&full, "node")["parts"]);
-    assert!(!inside.contains(&"friction/coulomb") && inside.contains(&"lib/gravity"), "{inside:?}");
+    assert!(!inside.contains(&"friction/coulomb") && inside.contains(&"gravity/uniform"), "{inside:?}");
     assert!(bindings(&full, "element_force").contains(&"viscous_work".into()));
 
     let bare = check(
@@ -82,7 +82,7 @@ fn programs_hold_only_what_the_scene_uses() {
         &["block.toml", "--set", "friction.coefficient=0", "--set", "body.material.viscosity=0 Pa s"],
     );
     let parts = strings(&program(&bare, "boundary")["parts"]);
-    assert!(!parts.contains(&"friction/coulomb") && parts.contains(&"contact/frictionless"), "{parts:?}");
+    assert!(!parts.contains(&"friction/coulomb") && parts.contains(&"rub/none"), "{parts:?}");
     assert!(!bindings(&bare, "element_force").contains(&"viscous_work".into()));
 
     let bar = check(&place, &[&shipped("bar_wave.toml")]);

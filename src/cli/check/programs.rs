@@ -9,9 +9,9 @@ use serde::Serialize;
 use crate::engine::StageSetup;
 use crate::gpu::chains::{self, Chains};
 use crate::gpu::compose::{Choice, Composed, Kernel, RimKind};
-use crate::gpu::{Counts, Precision, Shape, order};
+use crate::gpu::{Counts, Precision, Shape, choice, order};
 use crate::model::Model;
-use crate::scene::{Drive, Road, Scene};
+use crate::scene::{Drive, Scene};
 use crate::{Error, Result};
 
 /// Threads and memory [bytes] of a work group that every GPU of a desktop has at least.
@@ -93,7 +93,7 @@ impl GpuPlan {
         let model = &*ordered.model;
         let mut programs: Vec<Program> = Vec::new();
         let chains = Chains::new(model, chains::longest(false, model.element_count()), true);
-        let scene_choice = choice(scene, model, &chains);
+        let scene_choice = choice(model, scene, &chains, Precision::F32);
         for (kernel, runs) in scene_kernels(scene) {
             programs.push(program(&scene_choice, kernel, runs)?);
         }
@@ -114,26 +114,6 @@ impl GpuPlan {
         }
         let buffers = buffers(&programs, model, &chains);
         Ok(GpuPlan { bytes: buffers.iter().map(|b| b.bytes).sum(), programs, buffers })
-    }
-}
-
-/// What the scene needs, whatever the stage.
-fn choice(scene: &Scene, model: &Model, chains: &Chains) -> Choice {
-    Choice {
-        element: scene.body.element,
-        law: scene.body.law,
-        viscous: scene.body.viscosity.is_some(),
-        road: scene.road.as_ref().map(Road::name),
-        friction: scene.friction,
-        held: !scene.holds.is_empty(),
-        gravity: scene.gravity != [0.0; 3],
-        damping: false,
-        rim: if scene.rim.is_some() { RimKind::Prescribed } else { RimKind::None },
-        precision: Precision::F32,
-        extruded: model.is_extruded(),
-        shared_classes: chains.shared_classes,
-        lattice: chains.lattice.is_some(),
-        joined: chains.is_joined(),
     }
 }
 
@@ -233,6 +213,7 @@ fn entries(name: &str, model: &Model, chains: &Chains) -> Option<u64> {
         "classes" => model.classes.len(),
         "corner_start" => model.node_count() + 1,
         "roles" | "positions" | "positions_lo" | "velocities" | "works" | "held" => model.node_count(),
+        "boundary_bits" => model.node_count().div_ceil(32),
         "boundary" => mesh.surface.len() + mesh.rim.len(),
         "rim_nodes" | "rim_arms" | "rim_sums" => mesh.rim.len(),
         "surface_nodes" | "surface_sums" | "contact_states" | "inverse_areas" => mesh.surface.len(),
