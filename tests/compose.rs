@@ -437,6 +437,14 @@ fn a_struct_comes_back_from_its_bytes() {
     assert_eq!(layout::encode(Real::Double, &[[1.0; 3]; 2]).len(), 64);
 }
 
+/// A road that scenes know and shaders do not is an error that names the file.
+#[test]
+fn a_variant_without_a_file_is_named() {
+    let choice = Choice { road: Some("washboard-road"), ..choices()[0] };
+    let error = choice.compose(Kernel::Boundary).unwrap_err().to_string();
+    assert!(error.contains("kernels/node") && error.contains("shaders/road/washboard_road.wgsl"), "{error}");
+}
+
 /// Bindings are numbered from 0 without gaps, and the device is asked for as many as the largest kernel has.
 #[test]
 fn the_largest_kernel_binds_what_adapters_are_asked_for() {
