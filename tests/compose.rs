@@ -12,7 +12,6 @@ use hexroll::gpu::compose::{Choice, Composed as Program, Kernel, PARTS, RimKind}
 use hexroll::gpu::layout::{self, Real, Wgsl};
 use hexroll::gpu::{Counts, Precision};
 use hexroll::physics::friction::{Coulomb, PressureVelocity, Stribeck, Viscous};
-use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
 use hexroll::scene::{Element, Friction, Law};
 use naga::{ArraySize, Block, Expression, Function, GlobalVariable, Handle, Module, Statement, TypeInner};
 
@@ -42,14 +41,10 @@ const ROADS: [(Option<&str>, Option<Friction>, bool); 6] = [
 
 fn choices() -> Vec<Choice> {
     let elements = [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
-    let laws = [
-        Law::NeoHookean(NeoHookean { g0: 1.0, g1: 1.0 }),
-        Law::MooneyRivlin(MooneyRivlin { g0: 1.0, g1: 1.0, g2: 1.0 }),
-        Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0: 1.0, g1: 1.0, g2: 1.0 }),
-    ];
+    let laws: Vec<Law> = Law::KINDS.iter().map(|kind| (kind.example)(1.0, 10.0)).collect();
     let mut all = Vec::new();
     for element in elements {
-        for law in laws {
+        for &law in &laws {
             for rim in [RimKind::None, RimKind::Prescribed, RimKind::Free] {
                 for (road, friction, held) in ROADS {
                     for (bits, precision) in (0..8).flat_map(|b| Precision::ALL.map(|p| (b, p))) {

@@ -11,7 +11,6 @@ use hexroll::cpu::{Precision, engine_at};
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
 use hexroll::physics::lanes::{Array, InLanes, Instructions, Lanes, Level};
-use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
 use hexroll::physics::scalar::{Real, Scalar};
 use hexroll::scene::Scene;
 
@@ -43,14 +42,10 @@ fn relative(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
 }
 
 fn cases() -> Vec<Scene> {
-    use hexroll::scene::{Element, Law};
+    use hexroll::scene::Element;
     let mut cases = Vec::new();
     for element in [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }] {
-        for law in [
-            Law::NeoHookean(NeoHookean { g0: 65.1e6, g1: 2.64e6 }),
-            Law::MooneyRivlin(MooneyRivlin { g0: 65.1e6, g1: 2.0e6, g2: 0.64e6 }),
-            Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0: 63.0e6, g1: 2.0e6, g2: 0.64e6 }),
-        ] {
+        for law in common::laws() {
             for viscosity in [None, Some(20.0)] {
                 // 7 elements a row: no lane count divides it, so full, crossing and partial batches all occur.
                 let mut case = block([0.07, 0.03, 0.02], [7, 3, 2]);

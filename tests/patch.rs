@@ -35,6 +35,14 @@ fn expected_stress(law: Law) -> Mat3<f64> {
     let square = |A: &Mat3<f64>| -> Mat3<f64> { std::array::from_fn(|c| times(A, A[c])) };
     let trace = |A: &Mat3<f64>| A[0][0] + A[1][1] + A[2][2];
     let unit = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+    let Bb = B.map(|c| c.map(|v| v * J.powf(-2.0 / 3.0)));
+    let (i1b, Bb2) = (trace(&Bb), square(&Bb));
+    // kappa (J - 1) + dev(g1 B' + g2 (I1' B' - B'^2)) / J with B' = J^-2/3 B.
+    let split = |[kappa, g1, g2]: [f64; 3], i: usize, j: usize| {
+        let T = |i: usize, j: usize| g1 * Bb[j][i] + g2 * (i1b * Bb[j][i] - Bb2[j][i]);
+        let mean = (T(0, 0) + T(1, 1) + T(2, 2)) / 3.0;
+        kappa * (J - 1.0) * unit(i, j) + (T(i, j) - mean * unit(i, j)) / J
+    };
     let elastic = |i: usize, j: usize| match law {
         Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0, g1, g2 }) => {
             // B^-1 = (B^2 - I1 B + I2 I) / J^2
@@ -43,14 +51,8 @@ fn expected_stress(law: Law) -> Mat3<f64> {
             let inverse = (b2[j][i] - i1 * B[j][i] + i2 * unit(i, j)) / (J * J);
             (g0 * (J - 1.0) * unit(i, j) + g1 * (B[j][i] - unit(i, j)) - g2 * (inverse - unit(i, j))) / J
         }
-        Law::NeoHookean(NeoHookean { g0, g1 }) | Law::MooneyRivlin(MooneyRivlin { g0, g1, .. }) => {
-            let g2 = if let Law::MooneyRivlin(MooneyRivlin { g2, .. }) = law { g2 } else { 0.0 };
-            let Bb = B.map(|c| c.map(|v| v * J.powf(-2.0 / 3.0)));
-            let (i1b, b2) = (trace(&Bb), square(&Bb));
-            let T = |i: usize, j: usize| g1 * Bb[j][i] + g2 * (i1b * Bb[j][i] - b2[j][i]);
-            let mean = (T(0, 0) + T(1, 1) + T(2, 2)) / 3.0;
-            g0 * (J - 1.0) * unit(i, j) + (T(i, j) - mean * unit(i, j)) / J
-        }
+        Law::NeoHookean(NeoHookean { g0, g1 }) => split([g0, g1, 0.0], i, j),
+        Law::MooneyRivlin(MooneyRivlin { g0, g1, g2 }) => split([g0, g1, g2], i, j),
     };
     let viscous = |i: usize, j: usize| ETA * (L[j][i] + L[i][j] - 2.0 / 3.0 * trace(&L) * unit(i, j));
     std::array::from_fn(|j| std::array::from_fn(|i| elastic(i, j) + viscous(i, j)))

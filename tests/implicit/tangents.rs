@@ -4,16 +4,9 @@
 use super::fixtures::{body, model};
 use hexroll::implicit::assembly::Assembler;
 use hexroll::implicit::matrix::BlockMatrix;
-use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
 use hexroll::scene::{Element, Law, MeshSpec};
 
 const ELEMENTS: [Element; 3] = [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
-const LAWS: [Law; 3] = [
-    Law::NeoHookean(NeoHookean { g0: 65.1e6, g1: 2.64e6 }),
-    Law::MooneyRivlin(MooneyRivlin { g0: 65.1e6, g1: 2.0e6, g2: 0.64e6 }),
-    Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0: 63.0e6, g1: 2.0e6, g2: 0.64e6 }),
-];
-
 fn noise(n: usize, scale: f64) -> Vec<[f64; 3]> {
     let mut state = 12345u64;
     let mut next = || {
@@ -32,7 +25,7 @@ fn the_tangent_is_the_derivative_of_the_force() {
     let mesh =
         MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements: [8, 2, 2] };
     for element in ELEMENTS {
-        for law in LAWS {
+        for law in Law::KINDS.iter().map(|kind| (kind.example)(2.64e6, 65.1e6)) {
             for viscosity in [None, Some(20.0)] {
                 let mut body = body(mesh.clone(), law, element);
                 body.viscosity = viscosity;

@@ -119,11 +119,13 @@ impl<T: Real, const N: usize> Lanes for Array<T, N> {
 
     #[inline(always)]
     unsafe fn load(slice: *const T, at: usize) -> Self {
+        // SAFETY: the caller's promise.
         unsafe { Array(slice.add(at).cast::<[T; N]>().read_unaligned()) }
     }
 
     #[inline(always)]
     unsafe fn store(self, slice: *mut T, at: usize) {
+        // SAFETY: the caller's promise.
         unsafe { slice.add(at).cast::<[T; N]>().write_unaligned(self.0) }
     }
 
@@ -131,6 +133,7 @@ impl<T: Real, const N: usize> Lanes for Array<T, N> {
     unsafe fn load_over(mut self, from: *const T, mask: u32) -> Self {
         for i in 0..N {
             if mask >> i & 1 == 1 {
+                // SAFETY: the caller's promise.
                 self.0[i] = unsafe { *from.wrapping_add(i) };
             }
         }
@@ -141,6 +144,7 @@ impl<T: Real, const N: usize> Lanes for Array<T, N> {
     unsafe fn store_where(self, to: *mut T, mask: u32) {
         for i in 0..N {
             if mask >> i & 1 == 1 {
+                // SAFETY: the caller's promise.
                 unsafe { *to.wrapping_add(i) = self.0[i] };
             }
         }
@@ -149,6 +153,7 @@ impl<T: Real, const N: usize> Lanes for Array<T, N> {
     #[inline(always)]
     unsafe fn add_to(self, sums: *mut f64) {
         for i in 0..N {
+            // SAFETY: the caller's promise.
             unsafe { *sums.add(i) += self.0[i].to_f64() };
         }
     }
@@ -157,6 +162,7 @@ impl<T: Real, const N: usize> Lanes for Array<T, N> {
     unsafe fn gather(slice: *const T, at: &[u32]) -> Self {
         let mut values = [T::zero(); N];
         for (value, &i) in values.iter_mut().zip(at) {
+            // SAFETY: the caller's promise.
             *value = unsafe { *slice.add(i as usize) };
         }
         Array(values)

@@ -191,3 +191,10 @@ answers! {
     /// Values by the shaders' names.
     constants: Vec<(&'static str, f64)> = |law: L| law.constants();
 }
+
+impl Law {
+    /// Its kind.
+    pub fn kind(&self) -> &'static Kind {
+        Law::KINDS.iter().find(|kind| kind.name == self.name()).expect("every law is of a kind")
+    }
+}

@@ -200,7 +200,7 @@ fn constants(table: &Table, kind: &Kind, given: &Parameter) -> Result<Law> {
     let own = |key: &str| kind.parameters.iter().any(|p| p.key == key);
     if let Some(item) = MODULI.iter().filter(|key| !own(key)).find_map(|key| table.get(key)) {
         let all: Vec<_> = kind.parameters.iter().map(|p| p.key).collect();
-        let remedy = format!("write either shear_modulus and bulk_modulus or {}", all.join(", "));
+        let remedy = format!("write either the moduli (shear_modulus, bulk_modulus) or {}", all.join(", "));
         return Err(item.error(format!("given besides {}", given.key), remedy));
     }
     (kind.from_values)(&parameters::read(table, kind.parameters)?)
