@@ -6,7 +6,7 @@ mod common;
 
 use common::{EQ4, G, KAPPA, RUBBER, Random, TWO_CONSTANTS, close, laws, times};
 use hexroll::physics::element::hex8;
-use hexroll::physics::material::{Hyperelastic, KelvinVoigt, MooneyRivlin, Viscosity, WithLaw};
+use hexroll::physics::material::{Hyperelastic, KelvinVoigt, MooneyRivlin, Viscosity, WithLaw, Yeoh};
 use hexroll::physics::tensor::{Identity, Mat3, axpy, cofactor, det, dot};
 use hexroll::scene::Law;
 
@@ -263,5 +263,35 @@ fn viscosity_ignores_rigid_spins_and_never_gives_power() {
         let work: f64 = sigma.iter().zip(&L).map(|(&s, &l)| dot(s, l)).sum();
         close("power", power, work, 1e-11);
         assert!(power >= 0.0);
+    }
+}
+
+/// Yeoh's law in simple shear by g, where I - 3 = g^2: tau = 2 g (C10 + 2 C20 g^2 + 3 C30 g^4), and in pure volume change.
+#[test]
+fn yeoh_has_its_closed_form_stress() {
+    let (c10, c20, c30) = (1.0e6, -0.1e6, 0.03e6);
+    let law = Law::Yeoh(Yeoh { c10, c20, c30, bulk_modulus: KAPPA });
+    for g in [0.1f64, 0.5, 1.5] {
+        let F = [[1.0, 0.0, 0.0], [g, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let two_w1 = 2.0 * (c10 + 2.0 * c20 * g * g + 3.0 * c30 * g.powi(4));
+        // dev(two_w1 B): B11 = 1 + g^2, B12 = g, tr B = 3 + g^2.
+        let third = two_w1 * g * g / 3.0;
+        let expected = [[2.0 * third, two_w1 * g, 0.0], [two_w1 * g, -third, 0.0], [0.0, 0.0, -third]];
+        assert_stress(&law, &F, expected);
+    }
+    let l = 1.05f64;
+    let p = KAPPA * (l.powi(3) - 1.0);
+    assert_stress(&law, &diagonal(l, l, l), diagonal(p, p, p));
+}
+
+/// With C10 alone it stores what the neo-Hookean law does, and a scene takes the cheaper code.
+#[test]
+fn yeoh_with_one_constant_is_neo_hookean() {
+    let yeoh = Yeoh { c10: 0.5 * G, c20: 0.0, c30: 0.0, bulk_modulus: KAPPA };
+    assert_eq!(yeoh.simplified(), RUBBER);
+    let mut random = Random::new(6);
+    for _ in 0..50 {
+        let F = random_deformation(&mut random);
+        close("W", energy(&Law::Yeoh(yeoh), &F), energy(&RUBBER, &F), 1e-13);
     }
 }

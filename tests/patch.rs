@@ -7,7 +7,7 @@ use common::{ELEMENTS, block, distort, largest, laws, times};
 use hexroll::cpu::{self, Precision};
 use hexroll::model::Model;
 use hexroll::physics::element::hex8;
-use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
+use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean, Yeoh};
 use hexroll::physics::tensor::{Mat3, det};
 use hexroll::scene::{Element, Law};
 
@@ -53,6 +53,10 @@ fn expected_stress(law: Law) -> Mat3<f64> {
         }
         Law::NeoHookean(NeoHookean { g0, g1 }) => split([g0, g1, 0.0], i, j),
         Law::MooneyRivlin(MooneyRivlin { g0, g1, g2 }) => split([g0, g1, g2], i, j),
+        Law::Yeoh(Yeoh { c10, c20, c30, bulk_modulus }) => {
+            let e = i1b - 3.0;
+            split([bulk_modulus, 2.0 * (c10 + 2.0 * c20 * e + 3.0 * c30 * e * e), 0.0], i, j)
+        }
     };
     let viscous = |i: usize, j: usize| ETA * (L[j][i] + L[i][j] - 2.0 / 3.0 * trace(&L) * unit(i, j));
     std::array::from_fn(|j| std::array::from_fn(|i| elastic(i, j) + viscous(i, j)))

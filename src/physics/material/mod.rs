@@ -13,11 +13,13 @@ mod mooney_rivlin;
 mod mooney_rivlin_eq4;
 mod neo_hookean;
 mod viscosity;
+mod yeoh;
 
 pub use mooney_rivlin::MooneyRivlin;
 pub use mooney_rivlin_eq4::MooneyRivlinEq4;
 pub use neo_hookean::NeoHookean;
 pub use viscosity::{Inviscid, KelvinVoigt, Viscosity};
+pub use yeoh::Yeoh;
 
 use super::parameters::{Fault, Parameter, Parameters};
 use super::scalar::Scalar;
@@ -25,7 +27,7 @@ use super::scalar::Scalar;
 /// The laws there are: a line for each.
 macro_rules! for_every_law {
     ($macro:ident) => {
-        $macro! { MooneyRivlin, NeoHookean, MooneyRivlinEq4 }
+        $macro! { MooneyRivlin, NeoHookean, MooneyRivlinEq4, Yeoh }
     };
 }
 

@@ -8,7 +8,7 @@ use crate::Result;
 use crate::cpu::element_forces;
 use crate::model::Model;
 use crate::physics::element::hex8;
-use crate::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
+use crate::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean, Yeoh};
 use crate::report::bench::{G, KAPPA, block};
 use crate::report::{Case, Claim};
 use crate::scene::{Element, Law};
@@ -58,6 +58,11 @@ fn principal(law: &Law, l: [f64; 3]) -> [f64; 3] {
         }
         Law::NeoHookean(NeoHookean { g0, g1 }) => split(g0, g1, 0.0, J, b),
         Law::MooneyRivlin(MooneyRivlin { g0, g1, g2 }) => split(g0, g1, g2, J, b),
+        Law::Yeoh(Yeoh { c10, c20, c30, bulk_modulus }) => {
+            // g1 is 2 dW/dI at this I.
+            let e = b.iter().sum::<f64>() * J.powf(-2.0 / 3.0) - 3.0;
+            split(bulk_modulus, 2.0 * (c10 + 2.0 * c20 * e + 3.0 * c30 * e * e), 0.0, J, b)
+        }
     }
 }
 
@@ -116,6 +121,10 @@ fn sheared(law: &Law, g: f64) -> (Matrix, Matrix) {
         Law::NeoHookean(NeoHookean { g1, .. }) => (g1, 0.0, true),
         Law::MooneyRivlin(MooneyRivlin { g1, g2, .. }) => (g1, g2, true),
         Law::MooneyRivlinEq4(MooneyRivlinEq4 { g1, g2, .. }) => (g1, g2, false),
+        // I - 3 = g^2
+        Law::Yeoh(Yeoh { c10, c20, c30, .. }) => {
+            (2.0 * (c10 + 2.0 * c20 * g * g + 3.0 * c30 * g.powi(4)), 0.0, true)
+        }
     };
     let mean = if deviatoric { (g1 - g2) * g * g / 3.0 } else { 0.0 };
     let shear = (g1 + g2) * g;
