@@ -1,8 +1,10 @@
 //! Rigid roads. A road answers all that anyone asks of it: gap, normal and velocity at a point, directions along which it
 //! does not change, axes of a footprint on it, the surface that pictures draw. Nobody else matches on its kind.
 
+mod drum;
 mod plane;
 
+pub use drum::Drum;
 pub use plane::Plane;
 
 use super::scalar::Scalar;
@@ -50,6 +52,7 @@ pub trait Surface: Copy + std::fmt::Debug + PartialEq + Send + Sync + 'static {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Road {
     Plane(Plane),
+    Drum(Drum),
 }
 
 /// The same question to whatever road it is.
@@ -57,6 +60,7 @@ macro_rules! ask {
     ($road:expr, $surface:ident => $answer:expr) => {
         match $road {
             Road::Plane($surface) => $answer,
+            Road::Drum($surface) => $answer,
         }
     };
 }
@@ -124,6 +128,12 @@ impl Road {
             S::NAME
         }
         ask!(self, road => of(road))
+    }
+}
+
+impl From<Drum> for Road {
+    fn from(drum: Drum) -> Road {
+        Road::Drum(drum)
     }
 }
 

@@ -1,0 +1,139 @@
+//! The drum as a road: geometry against its definition, the plane as its limit, and how its curvature changes a footprint.
+
+mod common;
+
+use common::{GROUND, Random, close, explicit, mean, run, try_run, wheel};
+use hexroll::cpu::Precision;
+use hexroll::physics::road::{Drum, Plane};
+use hexroll::physics::tensor::{axpy, cross, dot, scale, sub};
+use hexroll::scene::*;
+
+/// A drum outside (1) or inside (-1) with its axis along y, through the origin there.
+fn drum(side: f64, radius: f64, angular_velocity: f64) -> Drum {
+    let curvature = side / radius;
+    Drum {
+        point: [0.0; 3],
+        normal: [0.0, 0.0, 1.0],
+        axis: [0.0, 1.0, 0.0],
+        curvature,
+        speed: angular_velocity / curvature,
+    }
+}
+
+/// Gap, normal and velocity of a tilted drum, from its axis: distance less radius, radial direction, omega x r.
+#[test]
+fn a_drum_is_round_and_turns_as_a_whole() {
+    let mut random = Random::new(51);
+    for side in [1.0, -1.0] {
+        let (radius, omega) = (0.85, 7.0);
+        let (axis, normal) = ([0.6, 0.8, 0.0], [0.8, -0.6, 0.0]);
+        let point = [0.1, -0.2, 0.3];
+        let road =
+            Road::Drum(Drum { point, normal, axis, curvature: side / radius, speed: omega * radius * side });
+        let centre = axpy(normal, -side * radius, point);
+        for _ in 0..500 {
+            let x = axpy(random.vector(), 0.3, point);
+            let from = sub(x, centre);
+            let radial = axpy(axis, -dot(axis, from), from);
+            let r = dot(radial, radial).sqrt();
+            // Coordinates near one: a few round-offs.
+            assert!((road.gap(x) - side * (r - radius)).abs() < 1e-15, "{x:?}");
+            let n = scale(radial, side / r);
+            assert!(common::largest([&sub(road.normal(x), n)]) < 1e-15);
+            let surface = scale(cross(axis, radial), omega * radius / r);
+            assert!(common::largest([&sub(road.velocity(x), surface)]) < 1e-14 * omega);
+            // Its own coordinates lead back to the point below x.
+            let below = axpy(n, -road.gap(x), x);
+            assert!(common::largest([&sub(road.point(road.chart(x)), below)]) < 1e-15);
+            let [along, across] = road.tangents(x);
+            assert!(common::largest([&sub(cross(along, across), n)]) < 1e-15, "a right-handed set");
+        }
+    }
+}
+
+/// The gap of a point of a large drum has the digits of a plane's: nothing cancels.
+#[test]
+fn the_gap_keeps_its_digits_however_large_the_drum() {
+    let x = [0.02, 0.01, 1e-6];
+    for radius in [1.0, 1e3, 1e6, 1e9] {
+        // gap = z + x^2 / 2R to first order in 1/R.
+        let expected = x[2] + x[0] * x[0] / (2.0 * radius);
+        let gap: f64 = Road::Drum(drum(1.0, radius, 0.0)).gap(x);
+        // Of second order in gap / R.
+        let tolerance = 1e-15 + expected / radius;
+        close("f64", gap, expected, tolerance);
+        let single: f32 = Road::Drum(drum(1.0, radius, 0.0)).gap(x.map(|c| c as f32));
+        close("f32", f64::from(single), expected, 3e-7 + tolerance);
+    }
+}
+
+/// The wheel pressed on a road that moves below it, its axle held, mean forces over the last 2 ms of 4.
+fn rolled(road: Road, precision: Precision) -> [f64; 3] {
+    let mut scene = wheel([44, 4, 5], 1.0);
+    scene.road = Some(road);
+    let mut press = common::press(Drive::Displacement { to: -1e-3, ramp: 0.02 });
+    press.rim.spin = Drive::Hold;
+    let mut roll = explicit("roll", 4e-3);
+    roll.rim.spin = Drive::Velocity { to: 26.0, ramp: 1e-3 };
+    roll.rim.z = Drive::Displacement { to: -1e-3, ramp: 1e-3 };
+    scene.stages = vec![press, roll];
+    scene.output.sample = 5e-4;
+    let outcome = try_run(&scene, precision, 1).expect("the scene runs");
+    let rows = outcome.stage(1);
+    [mean(&rows, 4, |s| s.road_fx_N), mean(&rows, 4, |s| s.road_fz_N), mean(&rows, 4, |s| s.rim_my_Nm)]
+}
+
+/// A drum of 1e5 times the wheel's radius is the plane that moves at its surface's speed.
+#[test]
+fn a_very_large_drum_is_a_plane() {
+    let (speed, radius) = (-1.0, 3900.0);
+    let plane = Road::Plane(Plane { velocity: [speed, 0.0, 0.0], point: [0.0; 3], normal: [0.0, 0.0, 1.0] });
+    let flat = rolled(plane, Precision::F64);
+    for side in [1.0, -1.0] {
+        let round = rolled(Road::Drum(drum(side, radius, side * speed / radius)), Precision::F64);
+        for (a, b) in flat.iter().zip(&round) {
+            // The surface falls by x^2/2R, 1e-8 of the indentation in a print of 10 mm; friction amplifies it.
+            assert!((a - b).abs() < 1e-6 * flat[1], "{flat:?} {round:?}");
+        }
+    }
+}
+
+/// On a drum the wheel carries less at the same indentation than on the plane, inside it more, by the relative curvature.
+#[test]
+fn curvature_changes_the_load_as_hertz_says() {
+    let load = |road: Road| {
+        let mut scene = wheel([88, 8, 2], 0.0);
+        scene.road = Some(road);
+        scene.stages = vec![common::press(Drive::Displacement { to: -1e-3, ramp: 0.02 })];
+        let outcome = run(&scene);
+        assert!(outcome.totals.ledger.worst_gap > -1e-12, "never inside the drum");
+        outcome.last().road_fz_N
+    };
+    let flat = load(GROUND);
+    let [outside, inside] = [1.0, -1.0].map(|side| load(Road::Drum(drum(side, 0.15, 0.0))));
+    // A ring on a chord: the half-width at an indentation goes as the root of the relative radius, 1/R = 1/R1 +- 1/R2, and
+    // so does the load at a mean pressure that the radius hardly changes: (1 + 0.26)^-1/2 = 0.89, (1 - 0.26)^-1/2 = 1.16.
+    let (less, more) = (outside / flat, inside / flat);
+    assert!((0.84..0.94).contains(&less) && (1.08..1.24).contains(&more), "{less} {more} of {flat} N");
+}
+
+/// Friction on a turning drum: what its motion puts in, less what it does on the body, is dissipated, and the balance closes.
+#[test]
+fn energies_on_a_turning_drum_add_up() {
+    let mut scene = wheel([44, 4, 2], 0.6);
+    scene.road = Some(Road::Drum(drum(1.0, 0.2, -20.0)));
+    scene.stages =
+        vec![common::press(Drive::Displacement { to: -1e-3, ramp: 0.02 }), explicit("slide", 4e-3)];
+    scene.output.sample = 5e-4;
+    let outcome = run(&scene);
+    let rows = outcome.stage(1);
+    let first = rows[0];
+    let last = outcome.last();
+    let dissipated = |s: &hexroll::record::Sample| s.road_work_J - s.friction_work_J;
+    let lost = dissipated(last) - dissipated(first);
+    // All nodes slide under the held wheel: friction force times the way of the surface, 4 m/s.
+    let force = mean(&rows, rows.len() - 1, |s| (s.road_fx_N.powi(2) + s.road_fz_N.powi(2)).sqrt());
+    let tangential = force * 0.6 / (1.0f64 + 0.36).sqrt();
+    close("dissipated", lost, tangential * 4.0 * (last.time_s - first.time_s), 0.03);
+    assert!(outcome.totals.ledger.worst_balance < 1e-9 * outcome.totals.ledger.largest_term);
+}
