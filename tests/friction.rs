@@ -2,12 +2,13 @@
 
 mod common;
 
-use common::{Random, close};
+use common::{Random, block, close, run};
 use hexroll::physics::contact::{self, Node, Touch};
-use hexroll::physics::friction::{Coulomb, PressureVelocity, Sliding, Stribeck, Viscous};
+use hexroll::physics::friction::{Coulomb, PressureVelocity, Sliding, StaticKinetic, Stribeck, Viscous};
 use hexroll::physics::node::StepSize;
-use hexroll::physics::tensor::dot;
-use hexroll::scene::{Friction, GROUND};
+use hexroll::physics::road::Plane;
+use hexroll::physics::tensor::{axpy, dot};
+use hexroll::scene::{Friction, GROUND, Road};
 
 const STRIBECK: Friction = Friction::Stribeck(Stribeck { still: 1.2, kinetic: 0.7, speed: 0.1, slope: 0.05 });
 const FIT: Friction =
@@ -24,6 +25,13 @@ fn expected(law: &Friction, p: f64, v: f64) -> f64 {
         }
         Friction::PressureVelocity(PressureVelocity { a, b, pressure, c, speed }) => {
             a + b * (-p / pressure).exp() + c * (-v / speed).exp()
+        }
+        Friction::StaticKinetic(StaticKinetic { still, kinetic }) => {
+            if v > 0.0 {
+                kinetic
+            } else {
+                still
+            }
         }
     }
 }
@@ -141,5 +149,63 @@ fn pressure_is_force_over_area() {
         let push = t.normal_force[2];
         let mu = 0.4 + 0.5 * (-push / area / 2e5f64).exp() + 0.3 * (-t.v[0] / 0.2).exp();
         close("mu", -t.tangential_force[0] / push, mu, 1e-9);
+    }
+}
+
+const TWO: Friction = Friction::StaticKinetic(StaticKinetic { still: 1.0, kinetic: 0.6 });
+
+/// Two coefficients: what stands is held by the static one, what slides is slowed by the kinetic one alone, and what the
+/// kinetic one can stop within the step sticks.
+#[test]
+fn two_coefficients_hold_what_stands_and_slow_what_slides() {
+    let (rest, fall) = ([0.0; 3], 0.02);
+    let held = touch_from(&TWO, rest, [0.999 * fall, 0.0, -fall]);
+    assert!(held.sticks && held.v[0] == 0.0);
+    let torn = touch_from(&TWO, rest, [1.001 * fall, 0.0, -fall]);
+    assert!(!torn.sticks);
+    close("torn off", torn.v[0], (1.001 - 0.6) * fall, 1e-12);
+    let slid = touch_from(&TWO, [0.9 * fall, 0.0, 0.0], [0.9 * fall, 0.0, -fall]);
+    assert!(!slid.sticks, "the grip of rest does not catch it");
+    close("slides on", slid.v[0], (0.9 - 0.6) * fall, 1e-12);
+    assert!(touch_from(&TWO, [0.5 * fall, 0.0, 0.0], [0.5 * fall, 0.0, -fall]).sticks, "slow enough to stop");
+}
+
+/// What rounding leaves of a stuck node's slip on an oblique moving road is none: it is held by the static coefficient.
+#[test]
+fn rounding_of_a_stuck_node_is_no_slip() {
+    let (normal, surface) = ([0.6, 0.0, 0.8], [0.8 * 1.3, 0.7, -0.6 * 1.3]);
+    let road = Road::Plane(Plane { point: [0.1, 0.2, 0.3], normal, velocity: surface });
+    let (mut x, mut v) = ([0.1, 0.2, 0.3], surface);
+    for _ in 0..1000 {
+        // Pulled by 0.8 of the normal force: between the two coefficients.
+        let push = axpy(normal, -0.01, axpy([0.0, 1.0, 0.0], 0.008, v));
+        let node = Node { inertia: MASS, x, v, v_star: push };
+        let t = contact::project(&road, Some(&TWO), || 0.0, STEP, &node).expect("it is pressed");
+        assert!(t.sticks, "{v:?}");
+        (x, v) = (t.x, t.v);
+    }
+}
+
+/// A block on a slope: below the static angle it stays, above it slides with g (sin - mu_kinetic cos).
+#[test]
+fn a_block_slides_down_a_slope_by_its_kinetic_coefficient() {
+    for (tangent, slides) in [(0.9f64, false), (1.1, true)] {
+        let (sin, cos) = tangent.atan().sin_cos();
+        let mut scene = block([0.02, 0.02, 0.005], [4, 4, 1]);
+        scene.body.viscosity = Some(200.0);
+        scene.road = Some(GROUND);
+        scene.friction = Some(TWO);
+        scene.gravity = [9.81 * sin, 0.0, -9.81 * cos];
+        scene.stages[0].duration = 0.02;
+        scene.output.sample = 1e-3;
+        let outcome = run(&scene);
+        let last = outcome.snapshots.last().unwrap();
+        let speed = last.v.iter().map(|v| v[0]).sum::<f64>() / last.v.len() as f64;
+        if slides {
+            // The block lands at once, swings for some 2 ms, then falls freely along the slope.
+            close("speed", speed, 9.81 * (sin - 0.6 * cos) * 0.02, 0.06);
+        } else {
+            assert!(speed.abs() < 1e-4, "{speed} m/s");
+        }
     }
 }

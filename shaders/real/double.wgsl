@@ -12,6 +12,11 @@ fn is_finite(x: real) -> bool {
     return (bitcast<u32>(f32(x)) & 0x7f800000u) != 0x7f800000u;
 }
 
+// Square of what a dozen roundings leave of a number, over the square of that number.
+fn rounding_squared() -> real {
+    return 1.262177448353619e-29;
+}
+
 // e^x to a few units in the last place, which the built-in function is not for doubles: x = k ln 2 + r, the series of e^r up
 // to r^13 (what is left out is below 5e-18), and 2^k from its bits. Beyond +-87 it is that of +-87.
 fn exponential(x: real) -> real {

@@ -2,11 +2,13 @@
 
 mod coulomb;
 mod pressure_velocity;
+mod static_kinetic;
 mod stribeck;
 mod viscous;
 
 pub use coulomb::Coulomb;
 pub use pressure_velocity::PressureVelocity;
+pub use static_kinetic::StaticKinetic;
 pub use stribeck::Stribeck;
 pub use viscous::Viscous;
 
@@ -16,7 +18,7 @@ use super::scalar::Real;
 /// The laws there are: a line for each.
 macro_rules! for_every_law {
     ($macro:ident) => {
-        $macro! { Coulomb, Viscous, Stribeck, PressureVelocity }
+        $macro! { Coulomb, Viscous, Stribeck, PressureVelocity, StaticKinetic }
     };
 }
 
