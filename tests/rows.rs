@@ -37,9 +37,9 @@ fn shuffled(mesh: &Mesh, random: &mut Random) -> Mesh {
         hexes: hexes.iter().map(|e| mesh.hexes[*e as usize].each_ref().map(renamed)).collect(),
         facets: mesh.facets.iter().map(|f| f.each_ref().map(renamed)).collect(),
         rim: sorted(&mesh.rim),
-        held: vec![],
         axle: mesh.axle,
         surface: sorted(&mesh.surface),
+        ..Mesh::default()
     }
 }
 

@@ -140,7 +140,7 @@ impl Report<'_> {
         let on_gpu = (info.engine == "gpu").then_some(());
         let computing = wall.saturating_sub(recorder.output).as_secs_f64();
         let updates = totals.steps as f64 * self.model.element_count() as f64;
-        let stages = StageMeans::of_run(scene, &recorder.history, totals);
+        let stages = StageMeans::of_run(scene, &recorder.history, &totals.noise, totals.free_radius);
         let mut warnings = warnings::of(scene, self.model);
         let stored_balance = WorstBalance::of_stored(&recorder.history);
         warnings.extend(warnings::of_run(scene, &stages, &stored_balance));

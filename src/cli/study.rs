@@ -109,12 +109,10 @@ fn of_scene(args: &StudyArgs, file: &Path, axis: &Axis, engine: &EngineArgs) -> 
 
 /// What a table calls a run: its mesh, or the value.
 fn label(axis: &Axis, value: &crate::study::axis::Value, scene: &Scene) -> String {
-    use crate::scene::MeshSpec::{Block, Ring};
     if axis.key != "refine" {
         return value.text.clone();
     }
-    let (Ring { elements, .. } | Block { elements, .. }) = &scene.body.mesh;
-    elements.map(|n| n.to_string()).join("x")
+    scene.body.mesh.elements().map(|n| n.to_string()).join("x")
 }
 
 /// A file's name without its ending.

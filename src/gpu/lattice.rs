@@ -107,7 +107,7 @@ mod tests {
 
     fn ring(elements: [usize; 3]) -> Mesh {
         let spec = MeshSpec::Ring { outer_radius: 2.0, inner_radius: 1.0, width: 0.5, elements };
-        Mesh::generate(&spec, [0.0; 3], None)
+        Mesh::generate(&spec)
     }
 
     /// Rings are closed, blocks are open, however flat.
@@ -121,7 +121,7 @@ mod tests {
             );
         }
         for elements in [[7, 3, 2], [1, 1, 1], [2, 1, 5], [1, 4, 1]] {
-            let mesh = Mesh::generate(&MeshSpec::Block { size: [1.0; 3], elements }, [0.0; 3], None);
+            let mesh = Mesh::generate(&MeshSpec::Block { size: [1.0; 3], elements });
             let [i, j, _] = elements;
             assert_eq!(Lattice::of(&mesh), Some(Lattice { row: i + 1, rows: j + 1, elements }));
         }

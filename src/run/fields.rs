@@ -10,14 +10,18 @@ use crate::physics::tensor::{dot, scale, sub};
 use crate::record::{ContactNode, ContactState, Snapshot};
 use crate::scene::Road;
 
+/// The end of a window: time, steps taken so far, and the time over which the window's forces acted [s].
+pub struct Moment {
+    pub time: f64,
+    pub step: u64,
+    pub length: f64,
+}
+
 /// A snapshot at the end of a window.
-#[allow(clippy::too_many_arguments)] // what a snapshot is made of
 pub fn snapshot(
     model: &Model,
     road: Option<&Road>,
-    time: f64,
-    step: u64,
-    length: f64,
+    &Moment { time, step, length }: &Moment,
     state: State,
     window: &Window,
     friction_energy: &[f64],

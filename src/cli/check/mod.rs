@@ -91,7 +91,7 @@ pub fn execute(args: &CheckArgs) -> Result<()> {
         title: scene.title.clone(),
         expected: scene.expected.clone(),
         body: Body::of(&scene, &model),
-        pieces: stages::pieces(&scene),
+        pieces: stages::pieces(&scene, &model.mesh.sets),
         stages: stages::plans(&scene, &steps),
         gpu: GpuPlan::of(&scene, &model)?,
         steps,

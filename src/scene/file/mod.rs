@@ -198,12 +198,12 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
     table.only(&SECTIONS, &LATER)?;
     let text = |key| table.get(key).map_or(Ok(String::new()), |item| item.text().map(Into::into));
     let body = body::body(&table.section("body", "[body]")?)?;
-    let rim = table.get("rim").map(|item| world::rim(&item, &body.mesh)).transpose()?;
+    let rim = table.get("rim").map(|item| world::rim(&item)).transpose()?;
     let road = table.get("road").map(|item| world::road(&item)).transpose()?;
     let gravity = table.vector_or_zero("gravity", &ACCELERATION)?;
     let holds = match table.get("hold") {
         Some(item) => {
-            let holds = world::holds(&item, &body.mesh)?;
+            let holds = world::holds(&item)?;
             world::check_holds(&item, &holds, gravity, road.as_ref())?;
             holds
         }
