@@ -9,6 +9,7 @@ use image::{ImageFormat, RgbaImage};
 use super::batch::{Case, run_all, settled, side_by_side};
 use super::choose::EngineArgs;
 use super::recorder::listen_for_interrupts;
+use super::terminal;
 use crate::output::folder::write_whole;
 use crate::scene::Scene;
 use crate::study::axis::Axis;
@@ -134,7 +135,7 @@ fn write(studies: &[Study], report: &Path) -> Result<()> {
     }
     save_text(&text, report)?;
     save_text(&numbers, &report.with_extension("csv"))?;
-    super::print(&format!("{text}\nwritten: {} and files of its name\n", report.display()))
+    terminal::print(&format!("{text}\nwritten: {} and files of its name\n", report.display()))
 }
 
 /// The command and the program, for the head of a report.

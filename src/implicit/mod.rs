@@ -11,6 +11,7 @@ pub mod dual;
 pub mod element;
 pub mod increments;
 pub mod krylov;
+pub mod linearised;
 pub mod matrix;
 pub mod multigrid;
 pub mod newton;
@@ -20,7 +21,8 @@ pub mod rim;
 pub mod simulation;
 pub mod system;
 
-pub use newton::{Failure, Inner, Iteration, Limits, Newton};
+pub use linearised::Failure;
+pub use newton::{Inner, Iteration, Limits, Newton};
 pub use simulation::{Scheme, Simulation, Target};
 
 use crate::error::Result;

@@ -1,8 +1,8 @@
 //! A box with a corner at the origin.
 
-use super::grading::{self, share};
+use super::grading::share;
 use super::grid::{Face, Grid};
-use super::mm;
+use super::words::{self, mm};
 use crate::model::mesh::{Lattice, Mesh};
 use crate::scene::Grading;
 
@@ -19,7 +19,7 @@ const SETS: [Face; 6] = [
 pub fn mesh(size: [f64; 3], elements: [usize; 3], grading: &Grading) -> Mesh {
     let [x, y, z] = elements;
     let sizes = size.map(mm).join(" x ");
-    let description = format!("block, {sizes} mm: {x} x {y} x {z} elements{}", grading::text(grading));
+    let description = format!("block, {sizes} mm: {x} x {y} x {z} elements{}", words::grading(grading));
     grid(size, elements, grading).into_mesh(&SETS, size.map(|s| 0.5 * s), description)
 }
 

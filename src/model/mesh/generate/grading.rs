@@ -2,8 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use crate::scene::Grading;
-
 /// Share of the length before node i of n, sizes growing by `ratio` from end to end.
 pub fn share(i: usize, n: usize, ratio: f64) -> f64 {
     let s = i as f64 / n as f64;
@@ -39,22 +37,11 @@ pub fn turn(i: usize, n: usize, ratio: f64, arc: f64) -> f64 {
     if s <= 0.5 { 0.5 * half(2.0 * s) } else { 1.0 - 0.5 * half(2.0 * (1.0 - s)) }
 }
 
-/// What follows the size of a mesh in its description.
-pub fn text(grading: &Grading) -> String {
-    match *grading {
-        Grading { ratio: [1.0, 1.0, 1.0], .. } => String::new(),
-        Grading { ratio: [a, b, c], fine_arc: 0.0 } => format!(", sizes grow by {a}, {b}, {c}"),
-        Grading { ratio: [a, b, c], fine_arc } => {
-            format!(", sizes grow by {a} (outside {:.0} deg), {b}, {c}", fine_arc.to_degrees())
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::model::mesh::Mesh;
-    use crate::scene::MeshSpec;
+    use crate::scene::{Grading, MeshSpec};
 
     fn ring(elements: [usize; 3], ratio: [f64; 3], fine_arc: f64) -> Mesh {
         let spec = MeshSpec::Ring { outer_radius: 2.0, inner_radius: 1.0, width: 0.5, elements };

@@ -4,6 +4,7 @@ mod block;
 mod grading;
 mod grid;
 mod ring;
+mod words;
 
 use super::Mesh;
 use crate::scene::{Grading, MeshSpec};
@@ -23,9 +24,4 @@ impl Mesh {
             MeshSpec::Block { size, elements } => block::mesh(size, elements, grading),
         }
     }
-}
-
-/// A length in millimetres, without the round-off of reading it [m].
-fn mm(length: f64) -> String {
-    format!("{}", (length * 1e9).round() / 1e6)
 }

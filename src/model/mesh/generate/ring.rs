@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::grading::{self, share, share_from_ends, turn};
+use super::grading::{share, share_from_ends, turn};
 use super::grid::{Face, Grid};
-use super::mm;
+use super::words::{self, mm};
 use crate::model::mesh::{Lattice, Mesh};
 use crate::scene::Grading;
 
@@ -23,7 +23,7 @@ pub fn mesh([outer, inner]: [f64; 2], width: f64, elements: [usize; 3], grading:
         mm(outer),
         mm(inner),
         mm(width),
-        grading::text(grading)
+        words::grading(grading)
     );
     grid([outer, inner], width, elements, grading).into_mesh(&SETS, [0.0, 0.0, outer], description)
 }
