@@ -76,7 +76,8 @@ impl Run<'_> {
             Drive::Displacement { to, .. } => to,
             _ => self.state.rim.at[STEER],
         };
-        let speed = stage.heading_speed(self.scene.road.as_ref(), rim::axle(&self.state.rim.at).into(), steer);
+        let speed =
+            stage.heading_speed(self.scene.road.as_ref(), rim::axle(&self.state.rim.at).into(), steer);
         let totals = &mut self.state.totals;
         let radius = slip.free_radius.or(totals.free_radius).ok_or_else(|| Error::NotSettled {
             stage: stage.name.clone(),
