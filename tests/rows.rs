@@ -8,7 +8,7 @@
 mod common;
 
 use common::{Driver, Random, block, distort, explicit, press, wheel};
-use hexroll::cpu::{Precision, element_forces, engine, engine_at};
+use hexroll::cpu::{Precision, engine, engine_at};
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
 use hexroll::physics::lanes::Level;
@@ -54,7 +54,7 @@ fn plain(model: &Model, x: &[[f64; 3]], v: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let mut f = vec![[0.0; 3]; x.len()];
     for (hex, &class) in model.mesh.hexes.iter().zip(&model.class_of) {
         let at = |field: &[[f64; 3]]| hex.map(|n| field[n as usize]);
-        for (n, g) in hex.iter().zip(element_forces(model, class as usize, &at(x), &at(v))) {
+        for (n, g) in hex.iter().zip(model.element_forces(class as usize, &at(x), &at(v))) {
             for d in 0..3 {
                 f[*n as usize][d] += g[d];
             }

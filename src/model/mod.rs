@@ -3,6 +3,7 @@
 pub mod areas;
 pub mod chains;
 mod classes;
+mod forces;
 pub mod frame;
 pub mod mesh;
 

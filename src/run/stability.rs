@@ -5,7 +5,6 @@
 //! as a difference of forces between the state displaced by e w, moving with e (2/dt) w, and the state at rest.
 
 use super::lanczos::{self, Top};
-use crate::cpu::element_forces;
 use crate::engine::Engine;
 use crate::error::Result;
 use crate::model::Model;
@@ -56,8 +55,8 @@ fn class_bound(model: &Model, class: usize, element: usize) -> Result<f64> {
             let moving = |s: f64| {
                 std::array::from_fn(|a| std::array::from_fn(|d| s * e * with_velocity * w[3 * a + d]))
             };
-            let f = element_forces(model, class, &moved(1.0), &moving(1.0));
-            let g = element_forces(model, class, &moved(-1.0), &moving(-1.0));
+            let f = model.element_forces(class, &moved(1.0), &moving(1.0));
+            let g = model.element_forces(class, &moved(-1.0), &moving(-1.0));
             Ok((0..24)
                 .map(|i| (f[i / 3][i % 3] - g[i / 3][i % 3]) / (2.0 * e * mass[i]))
                 .collect::<Vec<f64>>())

@@ -11,6 +11,8 @@ pub struct Source {
     pub path: String,
     /// The module it is, e.g. `["run"]`.
     pub module: Vec<String>,
+    /// The crate that it belongs to: `["physics"]` below `physics/lib.rs`, else the root.
+    root: Vec<String>,
     /// Its text without comments, product and unit tests.
     product: String,
     tests: String,
@@ -45,13 +47,17 @@ impl Sources {
                 None => (text, String::new()),
             };
             let module = module(&name);
-            files.insert(module.clone(), Source { path: name, module, product, tests });
+            // The folder of the nearest `lib.rs` above it.
+            let crates = path.ancestors().skip(1).find(|folder| folder.join("lib.rs").exists());
+            let crates = crates.and_then(|folder| folder.strip_prefix(root).ok()).unwrap_or(Path::new(""));
+            let root = crates.iter().map(|part| part.to_string_lossy().into_owned()).collect();
+            files.insert(module.clone(), Source { path: name, module, root, product, tests });
         }
         let mut sources = Sources { files, facades: BTreeMap::new() };
         for source in sources.files.values() {
             let handed = paths_of(&source.product, "pub use ");
             let absolute =
-                |(name, path): (String, Vec<String>)| (name, sources.absolute(&source.module, path));
+                |(name, path): (String, Vec<String>)| (name, sources.absolute(source, &source.module, path));
             let names = handed.into_iter().filter_map(|path| Some((path.last()?.clone(), path)));
             let facade = names.map(absolute).collect();
             sources.facades.insert(source.module.clone(), facade);
@@ -93,14 +99,14 @@ impl Sources {
                 paths.push(vec!["self".into(), name.clone(), "*".into()]);
             }
         }
-        paths.into_iter().map(|path| self.absolute(&module, path)).collect()
+        paths.into_iter().map(|path| self.absolute(source, &module, path)).collect()
     }
 
     /// A path from the crate's root.
-    fn absolute(&self, module: &[String], mut path: Vec<String>) -> Vec<String> {
+    fn absolute(&self, source: &Source, module: &[String], mut path: Vec<String>) -> Vec<String> {
         let mut at = module.to_vec();
         match path.first().map(String::as_str) {
-            Some("crate") => at.clear(),
+            Some("crate") => at = source.root.clone(),
             Some("self") => {}
             Some("super") => {
                 at.pop();

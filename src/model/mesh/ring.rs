@@ -56,7 +56,8 @@ fn rows_of_nodes(mesh: &Mesh, radius: f64) -> Option<usize> {
     let gaps: Vec<f64> = angles.iter().zip(next).map(|(a, b)| b - a).collect();
     let rows = gaps.iter().filter(|gap| **gap > ROW).count();
     let widest = gaps.iter().copied().fold(0.0, f64::max);
-    (rows >= FEWEST && widest <= TAU / FEWEST as f64).then_some(rows)
+    // With slack for round-off in equal gaps.
+    (rows >= FEWEST && widest <= 1.01 * TAU / FEWEST as f64).then_some(rows)
 }
 
 #[cfg(test)]
