@@ -170,7 +170,7 @@ fn a_body_without_rows_round_its_axle_is_named() {
     let place = Place::new();
     let rim = "\n[rim]\nnodes = \"z-max\"\n\n[road]";
     place.scene("block.toml", |text| text.replace("\n[road]", rim));
-    let spin = ["block.toml", "--set", "stage.0.rim.spin={ velocity = \"10 rad/s\" }"];
+    let spin = ["block.toml", "--set", "stage.0.rim={ spin = { velocity = \"10 rad/s\" } }"];
     let [still, spun, wheel] = [&spin[..1], &spin, &[&shipped("lat100_straight_viscous.toml")]]
         .map(|arguments| check(&place, arguments));
     let named = |check: &Value| check["warnings"].to_string().contains("no rows of outermost nodes");
