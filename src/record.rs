@@ -169,6 +169,14 @@ pub struct Tone {
     pub std: [f64; 3],
 }
 
+/// Classes of a run's own errors, relative to forces and deformation ([`crate::run::estimate`] says how). None: the kind does not arise, or is not estimated (implicit stages).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Estimate {
+    pub time_step: Option<f64>,
+    pub rounding: Option<f64>,
+    pub residual: Option<f64>,
+}
+
 /// One iteration of Newton's method in an implicit stage: a row of `implicit.csv`.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct NewtonRow {

@@ -254,11 +254,7 @@ fn shape_classes_tell_shapes_apart() {
     let mesh = Mesh {
         nodes: shapes.iter().flat_map(|shape| SIGNS.map(shape)).collect(),
         hexes: (0..4).map(corner).collect(),
-        facets: vec![],
-        rim: vec![],
-        axle: [0.0; 3],
-        surface: vec![],
-        held: vec![],
+        ..Mesh::default()
     };
     let model = Model::from_mesh(mesh, &body(Lumping::RowSum)).unwrap();
     assert_eq!(model.class_of, [0, 1, 2, 0]);
@@ -352,15 +348,7 @@ fn row_sums_keep_the_centre_of_mass() {
     let s = 0.6;
     let side = |z: f64| if z < 0.0 { 0.5 } else { 0.5 * s };
     let nodes = SIGNS.map(|c| [side(c[2]) * c[0], side(c[2]) * c[1], 0.5 + 0.5 * c[2]]).to_vec();
-    let mesh = Mesh {
-        nodes,
-        hexes: vec![[0, 1, 2, 3, 4, 5, 6, 7]],
-        facets: vec![],
-        rim: vec![],
-        axle: [0.0; 3],
-        surface: vec![],
-        held: vec![],
-    };
+    let mesh = Mesh { nodes, hexes: vec![[0, 1, 2, 3, 4, 5, 6, 7]], ..Mesh::default() };
     let centroid = |lumping| {
         let model = Model::from_mesh(mesh.clone(), &body(lumping)).unwrap();
         let total: f64 = model.mass.iter().sum();

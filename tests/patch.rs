@@ -91,7 +91,7 @@ fn an_affine_motion_of_a_distorted_mesh_is_homogeneous() {
         let expected = expected_stress(law);
         for (hex, &class) in model.mesh.hexes.iter().zip(&model.class_of) {
             let (x, v) = (hex.map(|n| x[n as usize]), hex.map(|n| v[n as usize]));
-            let sigma = mean_stress(&x, &cpu::element_forces(&model, class as usize, &x, &v));
+            let sigma = mean_stress(&x, &model.element_forces(class as usize, &x, &v));
             for (c, i) in (0..9).map(|k| (k / 3, k % 3)) {
                 // Round-off of the bulk modulus, positions of four edges.
                 let error = (sigma[c][i] - expected[c][i]).abs();

@@ -415,11 +415,8 @@ fn any_scale(renderer: &mut Renderer) {
     // Rounding moves an edge by a fraction of a pixel here and there: 1 % of 180,000 pixels.
     assert!(same_middle(&here, &there) < 1800, "{}", same_middle(&here, &there));
 
-    let block = Mesh::generate(
-        &MeshSpec::Block { size: [1.0, 0.4, 0.5], elements: [8, 3, 4] },
-        [1000.0, 0.0, 0.0],
-        None,
-    );
+    let block = Mesh::generate(&MeshSpec::Block { size: [1.0, 0.4, 0.5], elements: [8, 3, 4] })
+        .moved([1000.0, 0.0, 0.0]);
     let mut snapshot = at_rest(&block);
     snapshot.axle = None;
     let options = BodyView { view: View::Side, ..small() };

@@ -32,7 +32,10 @@ struct Rolled {
 impl Rolled {
     fn of(scene: &Scene) -> Rolled {
         let outcome = run(scene);
-        let means = StageMeans::of_run(scene, &outcome.samples, &outcome.totals).pop().expect("a stage");
+        let means =
+            StageMeans::of_run(scene, &outcome.samples, &outcome.totals.noise, outcome.totals.free_radius)
+                .pop()
+                .expect("a stage");
         Rolled { outcome, means }
     }
 
@@ -183,7 +186,7 @@ const ROLLS_FREELY: [&str; 2] = ["stage.1.duration=20 ms", "output.snapshots=non
 fn the_free_rolling_radius_is_measured_and_used() {
     let rolled = run(&scene("lat100_free_rolling", 1, &ROLLS_FREELY));
     let scene = scene("lat100_free_rolling", 1, &ROLLS_FREELY);
-    let means = StageMeans::of_run(&scene, &rolled.samples, &rolled.totals);
+    let means = StageMeans::of_run(&scene, &rolled.samples, &rolled.totals.noise, rolled.totals.free_radius);
     let free = means[2].rolling.as_ref().unwrap();
     // 38.88 mm within 0.03 mm.
     close("free radius", free.free_rolling_radius_m.unwrap(), 0.038_88, 0.03 / 38.88);
@@ -311,7 +314,8 @@ mod long {
     fn a_fine_wheel_rolls_freely_at_a_larger_radius() {
         let scene = scene("lat100_free_rolling", 2, &ROLLS_FREELY);
         let outcome = run(&scene);
-        let means = StageMeans::of_run(&scene, &outcome.samples, &outcome.totals);
+        let means =
+            StageMeans::of_run(&scene, &outcome.samples, &outcome.totals.noise, outcome.totals.free_radius);
         let free = means[2].rolling.as_ref().unwrap();
         close("free radius", free.free_rolling_radius_m.unwrap(), 0.038_95, 0.03 / 38.95);
         assert!(free.longitudinal_force_N.abs() < 0.5, "{free:?}");

@@ -174,10 +174,10 @@ fn the_critical_step_does_not_depend_on_the_start() {
 /// Compression shortens the critical step, and a run follows it.
 #[test]
 fn a_run_follows_the_critical_step_under_compression() {
-    use hexroll::scene::{NodeSet, Rim, Stage};
+    use hexroll::scene::{Rim, Stage};
     let mut scene = block([0.02, 0.02, 0.02], [3, 3, 3]);
     scene.road = Some(common::GROUND);
-    scene.rim = Some(Rim { nodes: NodeSet::ZMax });
+    scene.rim = Some(Rim { nodes: "z-max".into() });
     scene.output.sample = 1e-4;
     let down = Drive::Displacement { to: -0.007, ramp: 0.02 };
     scene.stages = vec![Stage { duration: 0.03, ..common::press(down) }];

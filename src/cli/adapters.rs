@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::choose::{LARGE, usable};
 use super::format::bytes;
+use super::terminal;
 use crate::Result;
 use crate::gpu::{AdapterReport, adapters};
 
@@ -28,7 +29,7 @@ pub fn execute(args: &AdaptersArgs) -> Result<()> {
     let adapters = adapters();
     let auto = auto(&adapters);
     let report = Report { adapters, auto };
-    if args.json { super::print_json(&report) } else { super::print(&text(&report)) }
+    if args.json { terminal::print_json(&report) } else { terminal::print(&text(&report)) }
 }
 
 fn auto(adapters: &[AdapterReport]) -> String {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::choose::usable;
+use super::terminal;
 use crate::bench::critical::{self, CriticalReport};
 use crate::bench::kind::Kind;
 use crate::bench::record::{self, Record};
@@ -178,7 +179,7 @@ pub fn execute(args: &BenchArgs) -> Result<()> {
         }
         save(&report)?;
     }
-    super::print(&markdown::page(&report))?;
+    terminal::print(&markdown::page(&report))?;
     if let Some(record) = &record {
         eprintln!("record: {}", record.folder.display());
     }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::terminal;
 use crate::Result;
 use crate::output::compare::compare;
 
@@ -28,5 +29,5 @@ pub struct CompareArgs {
 
 pub fn execute(args: &CompareArgs) -> Result<()> {
     let comparison = compare(&args.a, &args.b)?;
-    if args.json { super::print_json(&comparison) } else { super::print(&comparison.to_string()) }
+    if args.json { terminal::print_json(&comparison) } else { terminal::print(&comparison.to_string()) }
 }

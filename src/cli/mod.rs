@@ -17,19 +17,17 @@ mod recorder;
 mod render;
 mod report;
 mod run;
+mod scene;
 mod study;
 mod sweep;
 mod table;
+mod terminal;
 mod warnings;
 
-use std::io::Write;
-use std::path::PathBuf;
-
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::scene::Scene;
-use crate::{Error, Result};
+use crate::Result;
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -112,7 +110,7 @@ impl Cli {
     /// Does what was asked.
     ///
     /// # Errors
-    /// Whatever ends a command: see [`Error`].
+    /// Whatever ends a command: see [`Error`](crate::Error).
     pub fn execute(self) -> Result<()> {
         match self.command {
             Command::Run(args) => run::execute(&args),
@@ -126,37 +124,4 @@ impl Cli {
             Command::Bench(args) => bench::execute(&args),
         }
     }
-}
-
-/// A scene file with changes.
-#[derive(Debug, Args)]
-struct SceneArgs {
-    /// Scene file (TOML)
-    scene: PathBuf,
-    /// Change an entry of the scene: a dotted path, entries of arrays by index; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    sets: Vec<String>,
-}
-
-impl SceneArgs {
-    /// The scene, and its text with the changes in it.
-    fn load(&self) -> Result<(Scene, String)> {
-        let text = std::fs::read_to_string(&self.scene).map_err(Error::io(&self.scene, "read the scene"))?;
-        let file = self.scene.to_string_lossy();
-        Ok((Scene::parse(&text, &file, &self.sets)?, Scene::effective_text(&text, &file, &self.sets)?))
-    }
-}
-
-/// Prints a result. A reader that has seen enough (`| head`) is no error.
-fn print(text: &str) -> Result<()> {
-    match std::io::stdout().lock().write_all(text.as_bytes()) {
-        Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-        result => result.map_err(Error::io("stdout", "write the result")),
-    }
-}
-
-fn print_json(value: &impl serde::Serialize) -> Result<()> {
-    let text =
-        serde_json::to_string_pretty(value).map_err(|e| Error::io("stdout", "write the result")(e.into()))?;
-    print(&(text + "\n"))
 }

@@ -6,6 +6,7 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::pictures::{self, FIELDS, Style, VIEWS};
+use super::terminal;
 use crate::output::read;
 use crate::render::{DEFAULT_SIZE, View};
 use crate::scene::{Field, Picture, Scene};
@@ -86,7 +87,7 @@ pub fn execute(args: &RenderArgs) -> Result<()> {
     let out = args.out.as_deref().unwrap_or(&args.dir);
     let written = pictures::draw(&snapshots, &wanted, &asked(args, scene.as_ref()), &style, out)?;
     let lines: String = written.iter().map(|path| format!("{}\n", path.display())).collect();
-    super::print(&lines)
+    terminal::print(&lines)
 }
 
 fn wanted(which: Which, count: usize, dir: &Path) -> Result<Vec<usize>> {

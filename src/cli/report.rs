@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use clap::{Args, Subcommand};
 
+use super::terminal;
 use crate::bench::machine::Machine;
 use crate::report::accuracy::{self, Matrix, Measured, Problem};
 use crate::report::page::{self, Finding};
@@ -285,7 +286,7 @@ fn find(case: &Case) -> Finding<'_> {
 
 fn write(path: &Path, text: &str) -> Result<()> {
     if path == Path::new("-") {
-        return super::print(text);
+        return terminal::print(text);
     }
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(Error::io(folder, "make the folder"))?;

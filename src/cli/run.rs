@@ -5,12 +5,13 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 
-use super::SceneArgs;
 use super::choose::{self, Chosen, EngineArgs};
 use super::format::plural;
 use super::pictures::{self, Style};
 use super::progress::Display;
 use super::recorder::{Recorder, listen_for_interrupts};
+use super::scene::SceneArgs;
+use super::terminal;
 use super::{table, warnings};
 use crate::engine::EngineInfo;
 use crate::model::Model;
@@ -58,7 +59,7 @@ pub fn execute(args: &RunArgs) -> Result<()> {
         Display::new(elements)
     };
     let done = simulate(&scene, &text, &args.engine, &out, display)?;
-    let printed = super::print(&table::text(&done.summary, &out, &done.files));
+    let printed = terminal::print(&table::text(&done.summary, &out, &done.files));
     done.error.map_or(printed, Err)
 }
 
@@ -140,7 +141,7 @@ impl Report<'_> {
         let on_gpu = (info.engine == "gpu").then_some(());
         let computing = wall.saturating_sub(recorder.output).as_secs_f64();
         let updates = totals.steps as f64 * self.model.element_count() as f64;
-        let stages = StageMeans::of_run(scene, &recorder.history, totals);
+        let stages = StageMeans::of_run(scene, &recorder.history, &totals.noise, totals.free_radius);
         let mut warnings = warnings::of(scene, self.model);
         let stored_balance = WorstBalance::of_stored(&recorder.history);
         warnings.extend(warnings::of_run(scene, &stages, &stored_balance));

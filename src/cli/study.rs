@@ -9,6 +9,7 @@ use image::{ImageFormat, RgbaImage};
 use super::batch::{Case, run_all, settled, side_by_side};
 use super::choose::EngineArgs;
 use super::recorder::listen_for_interrupts;
+use super::terminal;
 use crate::output::folder::write_whole;
 use crate::scene::Scene;
 use crate::study::axis::Axis;
@@ -109,12 +110,10 @@ fn of_scene(args: &StudyArgs, file: &Path, axis: &Axis, engine: &EngineArgs) -> 
 
 /// What a table calls a run: its mesh, or the value.
 fn label(axis: &Axis, value: &crate::study::axis::Value, scene: &Scene) -> String {
-    use crate::scene::MeshSpec::{Block, Ring};
     if axis.key != "refine" {
         return value.text.clone();
     }
-    let (Ring { elements, .. } | Block { elements, .. }) = &scene.body.mesh;
-    elements.map(|n| n.to_string()).join("x")
+    scene.body.mesh.elements().map(|n| n.to_string()).join("x")
 }
 
 /// A file's name without its ending.
@@ -136,7 +135,7 @@ fn write(studies: &[Study], report: &Path) -> Result<()> {
     }
     save_text(&text, report)?;
     save_text(&numbers, &report.with_extension("csv"))?;
-    super::print(&format!("{text}\nwritten: {} and files of its name\n", report.display()))
+    terminal::print(&format!("{text}\nwritten: {} and files of its name\n", report.display()))
 }
 
 /// The command and the program, for the head of a report.

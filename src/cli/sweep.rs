@@ -8,6 +8,7 @@ use super::batch::{Case, run_all, run_together, settled, side_by_side};
 use super::choose::{EngineArgs, EngineChoice, Precision};
 use super::recorder::listen_for_interrupts;
 use super::study::{axis, made_by, save_picture, save_text, stem};
+use super::terminal;
 use crate::scene::Scene;
 use crate::study::axis::{Axis, Value};
 use crate::study::sweep::{Point, Sweep};
@@ -120,7 +121,7 @@ pub fn execute(args: &SweepArgs) -> Result<()> {
     let text = format!("# Sweep\n\n{}{}", made_by(), sweep.markdown(&name, error));
     save_text(&text, &report)?;
     save_text(&sweep.csv(), &report.with_extension("csv"))?;
-    super::print(&format!("{text}\nwritten: {} and files of its name\n", report.display()))
+    terminal::print(&format!("{text}\nwritten: {} and files of its name\n", report.display()))
 }
 
 /// Every combination of the axes' values, the first axis running fastest.

@@ -461,23 +461,3 @@ fn first_failed<N: Lanes>(min_j: N, elements: &[u32]) -> Option<usize> {
     };
     (0..elements.len()).filter(bad).map(|lane| elements[lane] as usize).min()
 }
-
-/// Internal force of one element of a shape class in f64, at any corner positions and velocities.
-pub fn element_forces(model: &Model, class: usize, x: &Corners<f64>, v: &Corners<f64>) -> Corners<f64> {
-    model.composition().visit(Single { model, class, x, v })
-}
-
-struct Single<'a> {
-    model: &'a Model,
-    class: usize,
-    x: &'a Corners<f64>,
-    v: &'a Corners<f64>,
-}
-
-impl Compose for Single<'_> {
-    type Output = Corners<f64>;
-
-    fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, viscosity: V) -> Corners<f64> {
-        F::force(&law, &viscosity, &self.model.classes[self.class], self.x, self.v).f
-    }
-}

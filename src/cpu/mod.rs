@@ -16,7 +16,6 @@ mod state;
 mod steps;
 mod team;
 
-pub use elements::element_forces;
 pub use engine::CpuEngine;
 
 use crate::engine::Engine;

@@ -19,42 +19,9 @@ pub struct Lattice {
 impl Lattice {
     /// The lattice that all of a mesh is numbered by, if there is one.
     pub fn of(mesh: &Mesh) -> Option<Lattice> {
-        let first = mesh.hexes.first()?;
-        let (row, layer) = (first[3] as usize, first[4] as usize);
-        if row == 0 || layer == 0 || !layer.is_multiple_of(row) {
-            return None;
-        }
-        let rows = layer / row;
-        let closed = mesh.hexes.get(row - 1).is_some_and(|h| h[0] as usize == row - 1);
-        let columns = if closed { row } else { row - 1 };
-        let per_layer = columns * rows.checked_sub(1)?;
-        if per_layer == 0 || !mesh.hexes.len().is_multiple_of(per_layer) {
-            return None;
-        }
-        let lattice = Lattice { row, rows, elements: [columns, rows - 1, mesh.hexes.len() / per_layer] };
-        let nodes = row * rows * (lattice.elements[2] + 1);
-        let all = mesh.hexes.iter().enumerate().all(|(e, hex)| lattice.hex(e) == *hex);
-        (nodes == mesh.nodes.len() && all).then_some(lattice)
-    }
-
-    /// Nodes of element `e`.
-    fn hex(&self, e: usize) -> [u32; 8] {
-        let [ni, nj, _] = self.elements;
-        let (i, j, k) = (e % ni, e / ni % nj, e / ni / nj);
-        let low = (k * self.rows + j) * self.row;
-        let node = |along: usize, across: usize, up: usize| {
-            (low + (up * self.rows + across) * self.row + (i + along) % self.row) as u32
-        };
-        [
-            node(0, 0, 0),
-            node(1, 0, 0),
-            node(1, 1, 0),
-            node(0, 1, 0),
-            node(0, 0, 1),
-            node(1, 0, 1),
-            node(1, 1, 1),
-            node(0, 1, 1),
-        ]
+        let lattice = mesh.lattice()?;
+        let elements = lattice.elements;
+        Some(Lattice { row: lattice.row(), rows: elements[1] + 1, elements })
     }
 
     /// Columns of elements.
@@ -109,7 +76,7 @@ mod tests {
 
     fn ring(elements: [usize; 3]) -> Mesh {
         let spec = MeshSpec::Ring { outer_radius: 2.0, inner_radius: 1.0, width: 0.5, elements };
-        Mesh::generate(&spec, [0.0; 3], None)
+        Mesh::generate(&spec)
     }
 
     /// Rings are closed, blocks are open, however flat.
@@ -123,7 +90,7 @@ mod tests {
             );
         }
         for elements in [[7, 3, 2], [1, 1, 1], [2, 1, 5], [1, 4, 1]] {
-            let mesh = Mesh::generate(&MeshSpec::Block { size: [1.0; 3], elements }, [0.0; 3], None);
+            let mesh = Mesh::generate(&MeshSpec::Block { size: [1.0; 3], elements });
             let [i, j, _] = elements;
             assert_eq!(Lattice::of(&mesh), Some(Lattice { row: i + 1, rows: j + 1, elements }));
         }

@@ -49,6 +49,8 @@ impl Order {
             axle: old.axle,
             surface: old.surface.iter().map(renamed).collect(),
             held: if old.held.is_empty() { Vec::new() } else { self.to_device(&old.held) },
+            // Nobody on the device's side asks for names.
+            ..Mesh::default()
         };
         Model {
             mesh,

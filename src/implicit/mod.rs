@@ -11,6 +11,7 @@ pub mod dual;
 pub mod element;
 pub mod increments;
 pub mod krylov;
+pub mod linearised;
 pub mod matrix;
 pub mod multigrid;
 pub mod newton;
@@ -20,12 +21,13 @@ pub mod rim;
 pub mod simulation;
 pub mod system;
 
-pub use newton::{Failure, Inner, Iteration, Limits, Newton};
+pub use linearised::Failure;
+pub use newton::{Inner, Iteration, Limits, Newton};
 pub use simulation::{Scheme, Simulation, Target};
 
 use crate::error::Result;
 use crate::model::Model;
-use crate::scene::{ImplicitSolver, Linear, Scene};
+use crate::scene::{ImplicitSolver, Linear};
 
 /// Nodes up to which a direct solution is the faster one.
 const DIRECT_NODES: usize = 6_000;
@@ -40,15 +42,15 @@ const CORRECTION: f64 = 1e-2;
 ///
 /// # Errors
 /// [`crate::Error::Unsupported`] where the mesh cannot be coarsened and multigrid is asked for.
-pub fn inner(scene: &Scene, model: &Model, choice: ImplicitSolver) -> Result<Inner> {
+pub fn inner(model: &Model, choice: ImplicitSolver) -> Result<Inner> {
     Ok(match choice {
-        ImplicitSolver::ActiveSet(choice) => Inner::ActiveSet(linear(scene, model, choice, LINEAR)?),
+        ImplicitSolver::ActiveSet(choice) => Inner::ActiveSet(linear(model, choice, LINEAR)?),
         ImplicitSolver::Relaxation { omega, tolerance, sweeps, corrections } => {
             let relaxation = relax::Relaxation { omega, tolerance, sweeps };
             match corrections {
                 None => Inner::Relaxation(relaxation),
                 Some(choice) => {
-                    let solver = linear(scene, model, choice, CORRECTION)?;
+                    let solver = linear(model, choice, CORRECTION)?;
                     Inner::Corrected(relaxation, relax::Corrections::new(solver))
                 }
             }
@@ -57,12 +59,7 @@ pub fn inner(scene: &Scene, model: &Model, choice: ImplicitSolver) -> Result<Inn
 }
 
 /// A linear solver that goes down to a relative residual of `tolerance` if it is iterative.
-fn linear(
-    scene: &Scene,
-    model: &Model,
-    choice: Linear,
-    tolerance: f64,
-) -> Result<Box<dyn krylov::LinearSolver>> {
+fn linear(model: &Model, choice: Linear, tolerance: f64) -> Result<Box<dyn krylov::LinearSolver>> {
     let small = model.node_count() <= DIRECT_NODES;
     Ok(match choice {
         Linear::Direct => Box::new(direct::Direct::default()),
@@ -72,7 +69,7 @@ fn linear(
             Box::new(krylov::Krylov { preconditioner, tolerance, most: 20_000 })
         }
         Linear::Auto | Linear::Multigrid => {
-            let preconditioner = multigrid::Multigrid::new(&scene.body.mesh)?;
+            let preconditioner = multigrid::Multigrid::new(&model.mesh)?;
             Box::new(krylov::Krylov { preconditioner, tolerance, most: 500 })
         }
     })

@@ -3,10 +3,11 @@
 
 use super::contact::Status;
 use super::krylov::LinearSolver;
+use super::linearised::{Correction, Failure, Linearised};
 use super::matrix::BlockMatrix;
 use super::problem::{Increment, Iterate, Problem, Residual};
-use super::relax::{self, Corrections, Linearised, Relaxation};
-use super::system::{Correction, System};
+use super::relax::{self, Corrections, Relaxation};
+use super::system::System;
 
 /// What solves the linearised equations with their contact conditions.
 pub enum Inner {
@@ -58,23 +59,6 @@ pub struct Iteration {
 pub struct Converged {
     pub at: Iterate,
     pub residual: Residual,
-}
-
-/// Why an increment did not converge.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Failure {
-    #[error("element {element} inverts on the way")]
-    Inverted { element: usize },
-    #[error(
-        "no convergence in {iterations} iterations: relative residual {residual:.1e} (asked: {asked:.1e}), {changes} contact states still changing"
-    )]
-    TooMany { iterations: usize, residual: f64, asked: f64, changes: usize },
-    #[error("the linear equations have no solution: the body can move freely, or is at a limit point")]
-    Singular,
-    #[error(
-        "the relaxation did not converge in {sweeps} sweeps: residual {residual:.1e} N (asked: {asked:.1e} N)"
-    )]
-    Relaxation { sweeps: usize, residual: f64, asked: f64 },
 }
 
 /// Newton's method with what it keeps between increments.

@@ -7,7 +7,8 @@
 //! would ring.
 
 use super::contact::{Status, Surface};
-use super::newton::{Converged, Failure, Iteration, Newton};
+use super::linearised::Failure;
+use super::newton::{Converged, Iteration, Newton};
 use super::problem::{Increment, Iterate, Problem, RimIncrement};
 use crate::engine::State;
 use crate::model::areas::inverse_areas;

@@ -3,9 +3,9 @@
 
 use super::contact::{Equations, Status};
 use super::krylov::LinearSolver;
+use super::linearised::{Correction, Linearised};
 use super::matrix::{Block, BlockMatrix, dot, product, times, transposed};
 use super::problem::{Increment, Iterate, Problem, Residual};
-use super::relax::Linearised;
 use crate::physics::rim::{Coordinates, SPIN};
 use crate::physics::tensor::Vec3;
 
@@ -36,16 +36,6 @@ struct Border {
     rows: Vec<Vec<Vec3<f64>>>,
     block: Vec<Vec<f64>>,
     rhs: Vec<f64>,
-}
-
-/// A Newton correction.
-#[derive(Debug, Clone)]
-pub struct Correction {
-    /// Of every node that is not the rim's [m].
-    pub dx: Vec<Vec3<f64>>,
-    pub q: Coordinates,
-    /// Iterations of the linear solver.
-    pub iterations: usize,
 }
 
 impl System {

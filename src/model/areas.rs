@@ -1,6 +1,7 @@
-//! Areas of surface nodes in a deformed shape.
+//! Areas of surface nodes in a deformed shape, and the directions that a footprint is measured along.
 
 use super::mesh::Mesh;
+use crate::physics::rim;
 use crate::physics::tensor::{add, cross, dot, scale, sub};
 use crate::scene::Road;
 
@@ -80,4 +81,9 @@ pub fn inverse_areas(mesh: &Mesh, x: impl Fn(u32) -> [f64; 3], road: &Road) -> V
     let touchable = areas.iter().filter(|a| **a > 0.0).count().max(1);
     let least = 0.01 * areas.iter().sum::<f64>() / touchable as f64;
     areas.iter().map(|a| 1.0 / a.max(least).max(f64::MIN_POSITIVE)).collect()
+}
+
+/// Unit vectors along the road below the axle: along the wheel's heading, and to its left.
+pub fn road_axes(road: &Road, rim: &rim::Coordinates) -> [[f64; 3]; 2] {
+    road.axes(rim::axle(rim).into(), rim::axle_direction(rim).into())
 }

@@ -3,13 +3,14 @@
 pub mod areas;
 pub mod chains;
 mod classes;
+mod forces;
 pub mod frame;
 pub mod mesh;
 
 use crate::error::{Error, Result};
 use crate::physics::element::{Class, Composition};
-use crate::scene::{Body, Element, Law, Lumping, Scene};
-use mesh::Mesh;
+use crate::scene::{Body, Element, Hold, Law, Lumping, Rim, Scene};
+use mesh::{Mesh, UnknownSet};
 use std::sync::Arc;
 
 /// The discrete body.
@@ -33,12 +34,14 @@ pub struct Model {
 }
 
 impl Model {
-    /// Meshes a scene. Errors: an inside-out element, a node count beyond 32 bits.
+    /// Meshes a scene.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for a node set that the mesh does not have, a rim that leaves nothing to deform, an inside-out
+    /// element.
     pub fn new(scene: &Scene) -> Result<Model> {
-        let body = &scene.body;
-        let rim = scene.rim.as_ref().map(|r| r.nodes);
-        let mesh = Mesh::graded(&body.mesh, &body.grading, body.offset, rim, &scene.holds);
-        Model::from_mesh(mesh, body).map_err(|element| Error::Scene {
+        let mesh = meshed(scene)?;
+        Model::from_mesh(mesh, &scene.body).map_err(|element| Error::Scene {
             file: scene.file.display().to_string(),
             line: None,
             key: "body.mesh".into(),
@@ -91,6 +94,25 @@ impl Model {
     pub fn is_extruded(&self) -> bool {
         self.classes.iter().all(Class::is_extruded)
     }
+}
+
+/// The mesh of a scene with its rim and holds.
+fn meshed(scene: &Scene) -> Result<Mesh> {
+    let file = scene.file.display().to_string();
+    let mut mesh = Mesh::graded(&scene.body.mesh, &scene.body.grading).moved(scene.body.offset);
+    if let Some(Rim { nodes }) = &scene.rim {
+        let key = "rim.nodes";
+        mesh = mesh.with_rim(&nodes.name).map_err(|e| nodes.unknown(&file, key, &e.known))?;
+        if mesh.rim.len() == mesh.nodes.len() {
+            let problem = "the rim has every node of the mesh, and nothing can deform".into();
+            return Err(nodes.error(&file, key, problem, "name a set of some of the nodes".into()));
+        }
+    }
+    for (k, Hold { nodes, components }) in scene.holds.iter().enumerate() {
+        let unknown = |e: UnknownSet| nodes.unknown(&file, &format!("hold.{k}.nodes"), &e.known);
+        mesh = mesh.with_held(&nodes.name, *components).map_err(unknown)?;
+    }
+    Ok(mesh)
 }
 
 /// Sums of the corner masses by node.

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::stages::{self, Span};
 use super::summary::number;
+use crate::model::areas::road_axes;
 use crate::physics::tensor::{dot, sub};
 use crate::record::Sample;
-use crate::run::road_axes;
 use crate::scene::{Road, Stage};
 
 /// A rolling wheel over the last 30 % of a stage. Axes lie in the road: along the wheel's heading, and to its left;

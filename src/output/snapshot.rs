@@ -23,7 +23,7 @@ use std::path::Path;
 
 use super::vtu::{Array, Grid, Section::*};
 use crate::Result;
-use crate::model::mesh::{FACES, Mesh};
+use crate::model::mesh::{Mesh, boundary};
 use crate::record::{ContactNode, ContactState, Snapshot};
 
 /// VTK's number for an eight-node hexahedron.
@@ -181,19 +181,7 @@ fn mesh(grid: &Grid, nodes: Vec<[f64; 3]>) -> Result<Mesh> {
     let members = |set| (0..).zip(&sets).filter(|&(_, &s)| s == set).map(|(n, _)| n).collect();
     let axle = vectors(grid, FieldData, "axle_reference", 1)?[0];
     let facets = boundary(&hexes);
-    Ok(Mesh { nodes, facets, hexes, rim: members(RIM), axle, surface: members(SURFACE), held: Vec::new() })
-}
-
-/// Faces that belong to one element only, in the order of the elements.
-fn boundary(hexes: &[[u32; 8]]) -> Vec<[u32; 4]> {
-    let key = |mut face: [u32; 4]| {
-        face.sort_unstable();
-        face
-    };
-    let faces = || hexes.iter().flat_map(|hex| FACES.map(|face| face.map(|c| hex[c])));
-    let mut count = std::collections::HashMap::new();
-    faces().for_each(|face| *count.entry(key(face)).or_insert(0_u32) += 1);
-    faces().filter(|&face| count[&key(face)] == 1).collect()
+    Ok(Mesh { nodes, facets, hexes, rim: members(RIM), axle, surface: members(SURFACE), ..Mesh::default() })
 }
 
 fn contact(grid: &Grid, mesh: &Mesh) -> Result<Vec<ContactNode>> {

@@ -4,8 +4,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::stages::{self, Span};
 use super::{ContactScatter, Rolling};
-use crate::record::Sample;
-use crate::run::{Estimate, Totals};
+use crate::record::{ContactNoise, Estimate, Sample};
 use crate::scene::{Method, Scene, Stage};
 
 /// A run in numbers. Seconds, joules and newtons are in the names.
@@ -56,7 +55,7 @@ pub struct Summary {
     pub warnings: Vec<String>,
 }
 
-/// Estimated classes of error, relative to forces and deformation ([`crate::run::estimate`] says how); none where a kind
+/// Estimated classes of error, relative to forces and deformation ([`Estimate`]); none where a kind
 /// does not arise or is not estimated.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Errors {
@@ -178,8 +177,14 @@ impl StageMeans {
         }
     }
 
-    /// The means of every stage of a run, with the scatter of its contact force and the figures of rolling.
-    pub fn of_run(scene: &Scene, history: &[Sample], totals: &Totals) -> Vec<StageMeans> {
+    /// The means of every stage of a run, with the scatter of its contact force, given as the run found it in each, and the
+    /// figures of rolling; `free_radius`: what a longitudinal slip is related to [m].
+    pub fn of_run(
+        scene: &Scene,
+        history: &[Sample],
+        noise: &[Option<ContactNoise>],
+        free_radius: Option<f64>,
+    ) -> Vec<StageMeans> {
         let settles = |s: &&Stage| matches!(s.method, Method::QuasiStatic { .. });
         let settling: Vec<&str> = scene.stages.iter().filter(settles).map(|s| s.name.as_str()).collect();
         let mut means = StageMeans::of(history, &settling);
@@ -189,11 +194,11 @@ impl StageMeans {
             let Some(stage) = scene.stages.get(i).filter(|s| !settling.contains(&s.name.as_str())) else {
                 continue;
             };
-            let noise = totals.noise.get(i).copied().flatten();
+            let noise = noise.get(i).copied().flatten();
             let end = &history[span.rows.end - 1];
             let normal = road.normal([end.axle_x_m, end.axle_y_m, end.axle_z_m]);
             mean.contact = noise.and_then(|n| ContactScatter::of(&n, normal, scene.output.chatter_limit));
-            let radius = stage.slip.and(totals.free_radius);
+            let radius = stage.slip.and(free_radius);
             mean.rolling = Rolling::of(history, &span, stage, road, radius);
         }
         means

@@ -87,7 +87,7 @@ pub fn explicit(name: &str, duration: f64) -> Stage {
 pub fn wheel(elements: [usize; 3], mu: f64) -> Scene {
     let mut scene =
         scene(MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements });
-    scene.rim = Some(Rim { nodes: NodeSet::Inner });
+    scene.rim = Some(Rim { nodes: "inner".into() });
     scene.road = Some(GROUND);
     scene.friction = (mu > 0.0).then_some(Friction::Coulomb(Coulomb { mu }));
     scene.stages.clear();
@@ -105,8 +105,8 @@ pub fn press(z: Drive) -> Stage {
 }
 
 /// Holds components of a node set.
-pub fn hold(nodes: NodeSet, components: &str) -> Hold {
-    Hold { nodes, components: ['x', 'y', 'z'].map(|c| components.contains(c)) }
+pub fn hold(nodes: &str, components: &str) -> Hold {
+    Hold { nodes: nodes.into(), components: ['x', 'y', 'z'].map(|c| components.contains(c)) }
 }
 
 /// What a run produced.

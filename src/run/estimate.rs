@@ -17,14 +17,6 @@
 use crate::model::Model;
 use crate::model::mesh::SIGNS;
 
-/// Classes of error, relative to forces and deformation. None: the kind does not arise, or is not estimated (implicit stages).
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Estimate {
-    pub time_step: Option<f64>,
-    pub rounding: Option<f64>,
-    pub residual: Option<f64>,
-}
-
 /// Half a unit in the last place of positions and the unit of strains, of a precision by its name; `reach` is the largest
 /// coordinate from the axle [m].
 pub fn units(precision: &str, reach: f64) -> [f64; 2] {

@@ -1,6 +1,5 @@
 //! Whole fields of a snapshot, from positions alone and in f64 whatever engine ran: stresses, volumes, areas.
 
-use crate::cpu::element_forces;
 use crate::engine::{State, Window};
 use crate::model::Model;
 use crate::model::areas::contact_areas;
@@ -10,14 +9,18 @@ use crate::physics::tensor::{dot, scale, sub};
 use crate::record::{ContactNode, ContactState, Snapshot};
 use crate::scene::Road;
 
+/// The end of a window: time, steps taken so far, and the time over which the window's forces acted [s].
+pub struct Moment {
+    pub time: f64,
+    pub step: u64,
+    pub length: f64,
+}
+
 /// A snapshot at the end of a window.
-#[allow(clippy::too_many_arguments)] // what a snapshot is made of
 pub fn snapshot(
     model: &Model,
     road: Option<&Road>,
-    time: f64,
-    step: u64,
-    length: f64,
+    &Moment { time, step, length }: &Moment,
     state: State,
     window: &Window,
     friction_energy: &[f64],
@@ -27,7 +30,7 @@ pub fn snapshot(
     let (mut volume_ratio, mut pressure, mut von_mises) = (Vec::new(), Vec::new(), Vec::new());
     for (hex, &class) in model.mesh.hexes.iter().zip(&model.class_of) {
         let corners = hex.map(|n| state.x[n as usize]);
-        let f = element_forces(model, class as usize, &corners, &[[0.0; 3]; 8]);
+        let f = model.element_forces(class as usize, &corners, &[[0.0; 3]; 8]);
         let volume = hex8::volume(&corners);
         let sigma = mean_stress(&corners, &f, volume);
         let p = -(sigma[0][0] + sigma[1][1] + sigma[2][2]) / 3.0;

@@ -8,11 +8,10 @@ use std::f64::consts::TAU;
 
 use crate::engine::{SurfaceSum, Window};
 use crate::model::Model;
-use crate::model::areas::{contact_areas, extents};
-use crate::physics::rim;
+use crate::model::areas::{contact_areas, extents, road_axes};
 use crate::physics::tensor::dot;
 use crate::record::Sample;
-use crate::scene::{MeshSpec, Road};
+use crate::scene::Road;
 
 /// Figures of a window, summed over its parts, weighted with their lengths.
 #[derive(Debug, Clone, Default)]
@@ -71,17 +70,10 @@ impl Footprint {
     }
 }
 
-/// Longest part of a window of a wheel that spins at `spin` [rad/s]: the time in which it rolls over one facet [s].
-pub fn part(mesh: &MeshSpec, spin: f64) -> f64 {
-    match mesh {
-        MeshSpec::Ring { elements, .. } => TAU / (elements[0] as f64 * spin.abs()),
-        MeshSpec::Block { .. } => f64::INFINITY,
-    }
-}
-
-/// Unit vectors along the road below the axle: along the wheel's heading, and to its left.
-pub fn road_axes(road: &Road, rim: &rim::Coordinates) -> [[f64; 3]; 2] {
-    road.axes(rim::axle(rim).into(), rim::axle_direction(rim).into())
+/// Longest part of a window of a wheel of `around` elements that spins at `spin` [rad/s]: the time in which it rolls over
+/// one of them [s]. A mesh without rows round its axle takes whole windows.
+pub fn part(around: Option<usize>, spin: f64) -> f64 {
+    around.map_or(f64::INFINITY, |around| TAU / (around as f64 * spin.abs()))
 }
 
 #[cfg(test)]

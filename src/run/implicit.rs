@@ -2,9 +2,8 @@
 //! state handed to the engine for the stage that comes.
 
 use super::footprint::Footprint;
-use super::ledger::WindowEnd;
-use super::{Progress, Run};
-use crate::engine::{State, Window};
+use super::state::{Run, State};
+use crate::engine::{self, Window};
 use crate::error::{Error, Result};
 use crate::implicit::booking::Books;
 use crate::implicit::contact::Surface;
@@ -14,16 +13,6 @@ use crate::implicit::{self, Failure, Iteration, Limits, Newton, Scheme, Simulati
 use crate::model::Model;
 use crate::record::NewtonRow;
 use crate::scene::{Drive, Friction, Implicit, ImplicitScheme, Road, Stage};
-
-/// What implicit stages cost.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct ImplicitCounts {
-    pub increments: usize,
-    pub cuts: usize,
-    pub newton: usize,
-    /// Iterations of the linear solver, or sweeps of the relaxation.
-    pub inner: usize,
-}
 
 /// An implicit stage on its way.
 struct Progressing<'m> {
@@ -37,8 +26,8 @@ struct Progressing<'m> {
 impl<'a> Run<'a> {
     /// Runs an implicit stage. A static one gives a row an increment, whose forces are those at its end, and ends when
     /// every ramp is over, unless something keeps moving.
-    pub(super) fn implicit_stage(&mut self, stage: &Stage, settings: &Implicit) -> Result<()> {
-        let start = self.totals.time;
+    pub fn implicit_stage(&mut self, stage: &Stage, settings: &Implicit) -> Result<()> {
+        let start = self.state.totals.time;
         let end = self.implicit_end(stage, settings, start);
         let sample = match settings.scheme {
             // Every increment is a window.
@@ -48,13 +37,13 @@ impl<'a> Run<'a> {
         let mut on = self.begin_implicit(stage, settings, start, end)?;
         let mut window_start = start;
         let mut windows = 1;
-        while self.totals.time < end {
+        while self.state.totals.time < end {
             let window_end = if sample > 0.0 { end.min(start + windows as f64 * sample) } else { end };
-            let left = window_end - self.totals.time;
+            let left = window_end - self.state.totals.time;
             // The last sliver of a window is round-off.
             let length = if left < 1e-9 * (end - start) { left } else { on.lengths.next(left) };
             let whole = length == left;
-            let time = if whole { window_end } else { self.totals.time + length };
+            let time = if whole { window_end } else { self.state.totals.time + length };
             if !self.increment(stage, &mut on, time, length)? {
                 continue;
             }
@@ -62,17 +51,18 @@ impl<'a> Run<'a> {
                 continue;
             }
             windows += 1;
-            let window = self.close(stage, &mut on, time, time - window_start)?;
+            let window = self.close(stage, &mut on, time - window_start)?;
             window_start = time;
             self.snapshots(stage, &window, time == end)?;
             if self.observer.interrupted() {
-                self.totals.interrupted = true;
+                self.state.totals.interrupted = true;
                 break;
             }
         }
         // The explicit engine starts from velocities at this moment.
-        self.dt_before = 0.0;
-        (self.refresh_at, self.refresh_interval) = (self.totals.steps, 0);
+        let State { totals, control, .. } = &mut self.state;
+        control.before = 0.0;
+        control.look_again(totals.steps);
         Ok(())
     }
 
@@ -80,7 +70,7 @@ impl<'a> Run<'a> {
     fn implicit_end(&self, stage: &Stage, settings: &Implicit, start: f64) -> f64 {
         let moves = |d: &Drive| matches!(d, Drive::Velocity { to, .. } if *to != 0.0);
         let road_moves = self.scene.friction.is_some() && self.scene.road.is_some_and(|road| road.moves());
-        let settled = self.motion.settled_after();
+        let settled = self.state.rim.motion.settled_after();
         match settings.scheme {
             ImplicitScheme::Static { .. } if !road_moves && !stage.rim.drives().iter().any(moves) => {
                 if settled > start {
@@ -103,7 +93,7 @@ impl<'a> Run<'a> {
         let model: &'a Model = self.model;
         let problem = Problem::new(model, self.scene.gravity);
         let limits = Limits { tolerance: settings.tolerance, iterations: settings.iterations };
-        let inner = implicit::inner(self.scene, model, settings.solver)?;
+        let inner = implicit::inner(model, settings.solver)?;
         let newton = Newton::new(&problem, inner, limits);
         let (scheme, lengths) = match settings.scheme {
             ImplicitScheme::Static { increments } => {
@@ -119,11 +109,11 @@ impl<'a> Run<'a> {
         let mut state = self.engine.state()?;
         if scheme == Scheme::Static {
             state.v.fill([0.0; 3]);
-            self.rim_rate = [0.0; 6];
-            self.totals.ledger.velocities_set(0.0);
+            self.state.rim.rate = [0.0; 6];
+            self.state.totals.ledger.velocities_set(0.0);
         }
         let surface = surface(self.scene.road.as_ref(), self.scene.friction, model);
-        let rim = [self.rim, self.rim_rate];
+        let rim = [self.state.rim.at, self.state.rim.rate];
         let mut simulation = Simulation::new(problem, newton, scheme, surface, state, rim);
         let target = self.target(stage, start, 0.0);
         simulation.start(&target).map_err(|f| failed(stage, start, &f))?;
@@ -134,9 +124,9 @@ impl<'a> Run<'a> {
         Target {
             time,
             dt,
-            rim: self.motion.coordinates_at(time),
-            load: self.motion.load_at(time),
-            free: self.motion.setup(0.0).free,
+            rim: self.state.rim.motion.coordinates_at(time),
+            load: self.state.rim.motion.load_at(time),
+            free: self.state.rim.motion.setup(0.0).free,
             damping: stage.mass_damping,
         }
     }
@@ -150,11 +140,8 @@ impl<'a> Run<'a> {
                 on.lengths.converged(length, newton);
                 on.books.book(&on.simulation, length, stage.mass_damping);
                 on.residual = log.last().map_or(0.0, |l| l.residual) * on.simulation.newton.scale;
-                self.totals.time = time;
-                self.totals.steps += 1;
-                self.totals.dt_min = self.totals.dt_min.min(length);
-                self.totals.dt_max = self.totals.dt_max.max(length);
-                let counts = &mut self.totals.implicit;
+                self.state.totals.stepped(time, length, 1);
+                let counts = &mut self.state.totals.implicit;
                 counts.increments += 1;
                 counts.newton += newton;
                 counts.inner += log.iter().map(|l| l.inner).sum::<usize>();
@@ -163,7 +150,7 @@ impl<'a> Run<'a> {
                 Ok(true)
             }
             Err(failure) => {
-                self.totals.implicit.cuts += 1;
+                self.state.totals.implicit.cuts += 1;
                 let cut = on.lengths.failed(length);
                 let log = on.simulation.newton.log();
                 self.observer.increment(&rows(stage, [time, length], "failed", log))?;
@@ -173,35 +160,31 @@ impl<'a> Run<'a> {
                 }
                 // The last converged state is the last row; its fields are kept too.
                 let window = on.books.standing(&on.simulation, length, on.residual);
-                self.dt_before = length;
+                self.state.control.before = length;
                 self.hand_over(on)?;
                 self.snapshots(stage, &window, true)?;
-                Err(failed(stage, self.totals.time, &failure))
+                Err(failed(stage, self.state.totals.time, &failure))
             }
         }
     }
 
     /// Closes a window: the engine gets the state, the history its row.
-    fn close(&mut self, stage: &Stage, on: &mut Progressing<'_>, time: f64, length: f64) -> Result<Window> {
+    fn close(&mut self, stage: &Stage, on: &mut Progressing<'_>, length: f64) -> Result<Window> {
         let window = on.books.take(&on.simulation, on.residual);
         self.hand_over(on)?;
-        self.dt_before = length / window.steps as f64;
-        self.force_time = length;
-        let at = WindowEnd { time, length, dt: self.dt_before, stage: stage.name.clone() };
-        let road = self.scene.road.as_ref();
-        let footprint = Footprint::of(self.model, road, length, &window);
-        let row = self.totals.ledger.row(road, &at, &window, &footprint);
-        self.unbalanced = row.stored_balance_error_J;
-        let totals = &self.totals;
-        let progress = Progress { stage: &stage.name, time, end: self.end, steps: totals.steps, totals };
-        self.observer.sample(&row, &progress)?;
+        let dt = length / window.steps as f64;
+        self.state.control.before = dt;
+        self.state.recorder.force_time = length;
+        let footprint = Footprint::of(self.model, self.scene.road.as_ref(), length, &window);
+        let row = self.book(stage, dt, &window, &footprint)?;
+        self.state.recorder.unbalanced = row.stored_balance_error_J;
         Ok(window)
     }
 
     fn hand_over(&mut self, on: &Progressing<'_>) -> Result<()> {
         let s = &on.simulation;
-        (self.rim, self.rim_rate) = (s.q, s.q_rate);
-        self.engine.set_state(&State { x: s.x.clone(), v: s.v.clone() }, &s.q, &s.q_rate)
+        (self.state.rim.at, self.state.rim.rate) = (s.q, s.q_rate);
+        self.engine.set_state(&engine::State { x: s.x.clone(), v: s.v.clone() }, &s.q, &s.q_rate)
     }
 }
 

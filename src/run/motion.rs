@@ -143,6 +143,23 @@ impl Motion {
     }
 }
 
+/// The rim: how it is driven, and where it is.
+#[derive(Debug, Clone)]
+pub struct RimState {
+    pub motion: Motion,
+    /// Coordinates and their half-step rates at the end of the last window.
+    pub at: Coordinates,
+    pub rate: Coordinates,
+}
+
+impl RimState {
+    /// At rest with its centre on the axle [m], before the first stage.
+    pub fn at_rest([x, y, z]: [f64; 3]) -> RimState {
+        let at = [x, y, z, 0.0, 0.0, 0.0];
+        RimState { motion: Motion::at_rest(at), at, rate: [0.0; 6] }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

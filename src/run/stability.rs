@@ -5,7 +5,6 @@
 //! as a difference of forces between the state displaced by e w, moving with e (2/dt) w, and the state at rest.
 
 use super::lanczos::{self, Top};
-use crate::cpu::element_forces;
 use crate::engine::Engine;
 use crate::error::Result;
 use crate::model::Model;
@@ -56,8 +55,8 @@ fn class_bound(model: &Model, class: usize, element: usize) -> Result<f64> {
             let moving = |s: f64| {
                 std::array::from_fn(|a| std::array::from_fn(|d| s * e * with_velocity * w[3 * a + d]))
             };
-            let f = element_forces(model, class, &moved(1.0), &moving(1.0));
-            let g = element_forces(model, class, &moved(-1.0), &moving(-1.0));
+            let f = model.element_forces(class, &moved(1.0), &moving(1.0));
+            let g = model.element_forces(class, &moved(-1.0), &moving(-1.0));
             Ok((0..24)
                 .map(|i| (f[i / 3][i % 3] - g[i / 3][i % 3]) / (2.0 * e * mass[i]))
                 .collect::<Vec<f64>>())
@@ -91,46 +90,14 @@ pub fn assembled(
     guess: f64,
     before: Option<&Critical>,
 ) -> Result<Critical> {
-    let mut held = vec![false; 3 * x.len()];
-    model.mesh.rim.iter().for_each(|&n| held[3 * n as usize..3 * n as usize + 3].fill(true));
-    for (n, bits) in model.mesh.held.iter().enumerate() {
-        (0..3).filter(|d| bits >> d & 1 == 1).for_each(|d| held[3 * n + d] = true);
-    }
-    let mass: Vec<f64> = model.mass.iter().flat_map(|&m| [m; 3]).collect();
-    let start = match before {
-        // A little of everything, so that a mode orthogonal to the last one can grow.
-        Some(c) if c.vector.len() == mass.len() => {
-            let noise = spread(mass.len(), |i| !held[i]);
-            let scale = NEW / mass.iter().zip(&noise).map(|(m, n)| m * n * n).sum::<f64>().sqrt();
-            c.vector.iter().zip(&noise).map(|(v, n)| v + scale * n).collect()
-        }
-        _ => spread(mass.len(), |i| !held[i]),
-    };
-    let single = engine.info().precision != "f64";
-    let size = model.classes.iter().map(|c| c.volume.cbrt()).fold(f64::INFINITY, f64::min);
-    // Difference step: its truncation error (second order in the strain) against the rounding of the forces.
-    let reach = size * if single { 2e-3 } else { 1e-6 };
-    let mut difference = |w: &[f64], velocity: f64| -> Result<Vec<f64>> {
-        let e = reach / w.iter().fold(0.0f64, |m, w| m.max(w.abs()));
-        let mut side = |s: f64| {
-            let at = |n: usize, d: usize| s * e * w[3 * n + d];
-            let moved: Vec<[f64; 3]> =
-                (0..x.len()).map(|n| std::array::from_fn(|d| x[n][d] + at(n, d))).collect();
-            let moving: Vec<[f64; 3]> =
-                (0..x.len()).map(|n| std::array::from_fn(|d| velocity * at(n, d))).collect();
-            engine.force(&moved, &moving)
-        };
-        let (f, g) = (side(1.0)?, side(-1.0)?);
-        let free = |i: usize| if held[i] { 0.0 } else { 1.0 };
-        Ok((0..mass.len())
-            .map(|i| free(i) * (f[i / 3][i % 3] - g[i / 3][i % 3]) / (2.0 * e * mass[i]))
-            .collect())
-    };
+    let mut tangent = Tangent::new(engine, model, x);
+    let start = tangent.start(before);
+    let mass = tangent.mass.clone();
     let mut dt = guess;
     let mut iterations = 0;
     loop {
         let top = lanczos::largest(
-            |w| Ok(difference(w, 2.0 / dt)?.iter().map(|b| b * dt * dt / 4.0).collect()),
+            |w| Ok(tangent.apply(w, 2.0 / dt)?.iter().map(|b| b * dt * dt / 4.0).collect()),
             &mass,
             &start,
             TOLERANCE,
@@ -138,7 +105,7 @@ pub fn assembled(
         )?;
         iterations += top.iterations;
         let stiffness = if model.viscosity.is_some() {
-            rayleigh(&difference(&top.vector, 0.0)?, &top.vector, &mass)
+            rayleigh(&tangent.apply(&top.vector, 0.0)?, &top.vector, &mass)
         } else {
             top.value * 4.0 / (dt * dt)
         };
@@ -151,6 +118,66 @@ pub fn assembled(
         if settled {
             return Ok(Critical { dt, vector: top.vector, iterations });
         }
+    }
+}
+
+/// M^-1 (K + s C) of the free components at the engine's positions, by differences of its forces.
+struct Tangent<'a> {
+    engine: &'a mut dyn Engine,
+    x: &'a [[f64; 3]],
+    /// By component: whether it is held, by the rim or the scene, and its mass [kg]; shape `[3 node_count]`.
+    held: Vec<bool>,
+    mass: Vec<f64>,
+    /// Largest displacement of a difference [m].
+    reach: f64,
+}
+
+impl<'a> Tangent<'a> {
+    fn new(engine: &'a mut dyn Engine, model: &Model, x: &'a [[f64; 3]]) -> Self {
+        let mut held = vec![false; 3 * x.len()];
+        model.mesh.rim.iter().for_each(|&n| held[3 * n as usize..3 * n as usize + 3].fill(true));
+        for (n, bits) in model.mesh.held.iter().enumerate() {
+            (0..3).filter(|d| bits >> d & 1 == 1).for_each(|d| held[3 * n + d] = true);
+        }
+        let mass = model.mass.iter().flat_map(|&m| [m; 3]).collect();
+        let single = engine.info().precision != "f64";
+        let size = model.classes.iter().map(|c| c.volume.cbrt()).fold(f64::INFINITY, f64::min);
+        // Difference step: its truncation error (second order in the strain) against the rounding of the forces.
+        let reach = size * if single { 2e-3 } else { 1e-6 };
+        Tangent { engine, x, held, mass, reach }
+    }
+
+    /// Where the iteration starts: from the last vector, if there is one of this size.
+    fn start(&self, before: Option<&Critical>) -> Vec<f64> {
+        let (held, mass) = (&self.held, &self.mass);
+        match before {
+            // A little of everything, so that a mode orthogonal to the last one can grow.
+            Some(c) if c.vector.len() == mass.len() => {
+                let noise = spread(mass.len(), |i| !held[i]);
+                let scale = NEW / mass.iter().zip(&noise).map(|(m, n)| m * n * n).sum::<f64>().sqrt();
+                c.vector.iter().zip(&noise).map(|(v, n)| v + scale * n).collect()
+            }
+            _ => spread(mass.len(), |i| !held[i]),
+        }
+    }
+
+    /// The tangent times w, moving with `velocity` times it.
+    fn apply(&mut self, w: &[f64], velocity: f64) -> Result<Vec<f64>> {
+        let e = self.reach / w.iter().fold(0.0f64, |m, w| m.max(w.abs()));
+        let x = self.x;
+        let mut side = |s: f64| {
+            let at = |n: usize, d: usize| s * e * w[3 * n + d];
+            let moved: Vec<[f64; 3]> =
+                (0..x.len()).map(|n| std::array::from_fn(|d| x[n][d] + at(n, d))).collect();
+            let moving: Vec<[f64; 3]> =
+                (0..x.len()).map(|n| std::array::from_fn(|d| velocity * at(n, d))).collect();
+            self.engine.force(&moved, &moving)
+        };
+        let (f, g) = (side(1.0)?, side(-1.0)?);
+        let free = |i: usize| if self.held[i] { 0.0 } else { 1.0 };
+        Ok((0..self.mass.len())
+            .map(|i| free(i) * (f[i / 3][i % 3] - g[i / 3][i % 3]) / (2.0 * e * self.mass[i]))
+            .collect())
     }
 }
 

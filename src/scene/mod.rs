@@ -5,6 +5,7 @@
 
 mod document;
 pub mod file;
+mod node_set;
 mod overrides;
 mod reader;
 mod units;
@@ -13,6 +14,7 @@ pub use crate::physics::element::{Element, Lumping};
 pub use crate::physics::friction::Friction;
 pub use crate::physics::material::Law;
 pub use crate::physics::road::Road;
+pub use node_set::NodeSet;
 
 use crate::physics::road::Plane;
 use std::path::PathBuf;
@@ -96,6 +98,14 @@ pub enum MeshSpec {
     Block { size: [f64; 3], elements: [usize; 3] },
 }
 
+impl MeshSpec {
+    /// Elements in each direction, in the order in which a scene gives them.
+    pub fn elements(&self) -> [usize; 3] {
+        let (MeshSpec::Ring { elements, .. } | MeshSpec::Block { elements, .. }) = *self;
+        elements
+    }
+}
+
 /// How the sizes of elements vary along each direction of a mesh.
 ///
 /// With ratio q in a direction, node i of n stands at the share (q^s - 1)/(q - 1) of its length, s = i/n: sizes grow
@@ -123,28 +133,11 @@ pub struct Rim {
 }
 
 /// Components of a node set that do not move. Rim nodes in the set go with the rim all the same.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Hold {
     pub nodes: NodeSet,
     /// Whether x, y, z are held.
     pub components: [bool; 3],
-}
-
-/// Node sets the generators make.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum NodeSet {
-    /// Inner and outer cylinder of a ring.
-    Inner,
-    Outer,
-    /// Every node.
-    All,
-    /// Faces of a block; y-min and y-max are the side faces of a ring.
-    XMin,
-    XMax,
-    YMin,
-    YMax,
-    ZMin,
-    ZMax,
 }
 
 /// A part of the simulation with its own rim motion.
@@ -184,6 +177,10 @@ impl Stage {
         };
         let ([x, y, _], (sin, cos)) = (road.velocity(axle), steer.sin_cos());
         (rate(self.rim.x) - x) * cos + (rate(self.rim.y) - y) * sin
+    }
+
+    pub fn is_quasi_static(&self) -> bool {
+        matches!(self.method, Method::QuasiStatic { .. })
     }
 
     /// Whether the rim spins freely and without a moment.

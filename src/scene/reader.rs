@@ -213,7 +213,7 @@ impl<'a> Table<'a> {
 }
 
 /// "did you mean ...? one of ...": the nearest name first, if one is near.
-fn one_of(given: &str, names: &[&str]) -> String {
+pub(super) fn one_of(given: &str, names: &[&str]) -> String {
     let near = names.iter().map(|n| (strsim::normalized_damerau_levenshtein(given, n), n));
     let best = near.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|b| b.0 > 0.5);
     let hint = best.map(|(_, name)| format!("did you mean {name}? ")).unwrap_or_default();

@@ -13,7 +13,7 @@
 //!
 //! Values are a list `a,b,c` or a range `from:to:count`; behind a range a unit may stand: `2:3:5 m/s`.
 
-use crate::scene::{Drive, MeshSpec, Scene};
+use crate::scene::{Drive, Scene};
 use crate::{Error, Result};
 
 /// An axis of a study or a sweep.
@@ -182,8 +182,7 @@ fn range(text: &str) -> std::result::Result<Option<Vec<Value>>, String> {
 
 /// The generator's counts times `factor`.
 fn refined(scene: &Scene, factor: usize) -> String {
-    let (MeshSpec::Ring { elements, .. } | MeshSpec::Block { elements, .. }) = scene.body.mesh;
-    let [a, b, c] = elements.map(|n| n * factor);
+    let [a, b, c] = scene.body.mesh.elements().map(|n| n * factor);
     format!("body.mesh.elements=[{a}, {b}, {c}]")
 }
 

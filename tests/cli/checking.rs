@@ -164,6 +164,21 @@ fn a_large_wheel_takes_at_most_120_bytes_an_element() {
     assert!((80.0..120.0).contains(&each), "{each} B");
 }
 
+/// What a mesh does not have is said: a block that spins on a road has no rows of nodes round its axle.
+#[test]
+fn a_body_without_rows_round_its_axle_is_named() {
+    let place = Place::new();
+    let rim = "\n[rim]\nnodes = \"z-max\"\n\n[road]";
+    place.scene("block.toml", |text| text.replace("\n[road]", rim));
+    let spin = ["block.toml", "--set", "stage.0.rim={ spin = { velocity = \"10 rad/s\" } }"];
+    let [still, spun, wheel] = [&spin[..1], &spin, &[&shipped("lat100_straight_viscous.toml")]]
+        .map(|arguments| check(&place, arguments));
+    let named = |check: &Value| check["warnings"].to_string().contains("no rows of outermost nodes");
+    assert_eq!([named(&still), named(&spun), named(&wheel)], [false, true, false]);
+    assert_eq!((&spun["body"]["around"], &wheel["body"]["around"]), (&Value::Null, &44.into()));
+    assert_eq!(strings(&wheel["body"]["node_sets"]), ["all", "inner", "outer", "y-min", "y-max"]);
+}
+
 #[test]
 fn a_coarse_wheel_is_warned_of() {
     let place = Place::new();

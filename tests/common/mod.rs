@@ -97,7 +97,7 @@ pub fn explicit(name: &str, duration: f64) -> Stage {
 pub fn wheel(elements: [usize; 3], mu: f64) -> Scene {
     let mut scene =
         scene(MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements });
-    scene.rim = Some(Rim { nodes: NodeSet::Inner });
+    scene.rim = Some(Rim { nodes: "inner".into() });
     scene.road = Some(GROUND);
     scene.friction = (mu > 0.0).then_some(Friction::Coulomb(Coulomb { mu }));
     scene.stages.clear();

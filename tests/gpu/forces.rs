@@ -35,7 +35,7 @@ fn case() -> Case {
         "spinning_block",
         &["body.mesh.size=[\"30 mm\", \"27 mm\", \"24 mm\"]", "body.mesh.elements=[3, 3, 3]"],
     );
-    let mut mesh = Mesh::generate(&scene.body.mesh, [0.0; 3], None);
+    let mut mesh = Mesh::generate(&scene.body.mesh);
     let mut noise = Noise::new(7);
     let mut moved = |x: &[f64; 3], scale: f64| {
         let by = noise.vector(scale);
@@ -53,7 +53,7 @@ fn extruded() -> Case {
     let mut case = case();
     let mut noise = Noise::new(13);
     let shifts: Vec<[f64; 3]> = (0..16).map(|_| noise.vector(0.8e-3)).collect();
-    case.mesh = Mesh::generate(&case.scene.body.mesh, [0.0; 3], None);
+    case.mesh = Mesh::generate(&case.scene.body.mesh);
     for (n, x) in case.mesh.nodes.iter_mut().enumerate() {
         // Four nodes along x, y and z each.
         let by = shifts[n / 16 * 4 + n % 4];
@@ -163,7 +163,7 @@ fn numberings(gpu: &Gpu, kinds: &[&str]) {
     for spec in blocks.into_iter().chain([ring]) {
         for distorted in [false, true] {
             let mut case = case();
-            case.mesh = Mesh::generate(&spec, [0.0; 3], None);
+            case.mesh = Mesh::generate(&spec);
             let mut noise = Noise::new(11);
             if distorted {
                 for x in &mut case.mesh.nodes {

@@ -7,7 +7,7 @@ use hexroll::implicit::{Inner, Limits, Newton, Scheme, Simulation, Target};
 use hexroll::model::Model;
 use hexroll::physics::friction::Coulomb;
 use hexroll::physics::material::NeoHookean;
-use hexroll::scene::{Body, Element, GROUND, Law, Lumping, MeshSpec, NodeSet};
+use hexroll::scene::{Body, Element, GROUND, Law, Lumping, MeshSpec};
 
 pub const WHEEL_LAW: Law = Law::NeoHookean(NeoHookean { g0: 65.1e6, g1: 2.64e6 });
 
@@ -29,11 +29,14 @@ pub fn body(mesh: MeshSpec, law: Law, element: Element) -> Body {
 /// The paper's wheel on a mesh.
 pub fn wheel(elements: [usize; 3], element: Element) -> Model {
     let mesh = MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements };
-    model(&body(mesh, WHEEL_LAW, element), Some(NodeSet::Inner))
+    model(&body(mesh, WHEEL_LAW, element), Some("inner"))
 }
 
-pub fn model(body: &Body, rim: Option<NodeSet>) -> Model {
-    let mesh = hexroll::model::mesh::Mesh::generate(&body.mesh, body.offset, rim);
+pub fn model(body: &Body, rim: Option<&str>) -> Model {
+    let mut mesh = hexroll::model::mesh::Mesh::generate(&body.mesh).moved(body.offset);
+    if let Some(rim) = rim {
+        mesh = mesh.with_rim(rim).expect("generated meshes have the sets that tests ask for");
+    }
     Model::from_mesh(mesh, body).expect("generated meshes have positive volumes")
 }
 

@@ -5,7 +5,7 @@ use hexroll::implicit::increments::Increments;
 use hexroll::implicit::{Failure, Inner, Limits, Scheme, Simulation};
 use hexroll::model::Model;
 use hexroll::physics::material::NeoHookean;
-use hexroll::scene::{Element, Law, MeshSpec, NodeSet};
+use hexroll::scene::{Element, Law, MeshSpec};
 
 const LIMITS: Limits = Limits { tolerance: 1e-8, iterations: 25 };
 
@@ -56,7 +56,7 @@ fn nearly_incompressible_rubber() {
     let mesh =
         MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements: [44, 4, 5] };
     let law = Law::NeoHookean(NeoHookean { g0: 2640e6, g1: 2.64e6 });
-    let model = model(&body(mesh, law, Element::Q1p0), Some(NodeSet::Inner));
+    let model = model(&body(mesh, law, Element::Q1p0), Some("inner"));
     let mut s = solver(&model, 1.0);
     let cost = follow(&mut s, down(2.2e-3), 10).unwrap_or_else(|e| panic!("{e}"));
     println!("kappa/G = 1000: {:.2} N, {cost:?}", road_force(&s).0[2]);

@@ -6,11 +6,11 @@ use hexroll::implicit::direct::Direct;
 use hexroll::implicit::problem::Problem;
 use hexroll::implicit::{Inner, Newton, Scheme, Simulation};
 use hexroll::model::Model;
-use hexroll::scene::{Element, MeshSpec, NodeSet};
+use hexroll::scene::{Element, MeshSpec};
 
 fn bar() -> Model {
     let mesh = MeshSpec::Block { size: [0.02, 0.02, 0.1], elements: [1, 1, 5] };
-    model(&body(mesh, WHEEL_LAW, Element::Q1p0), Some(NodeSet::ZMin))
+    model(&body(mesh, WHEEL_LAW, Element::Q1p0), Some("z-min"))
 }
 
 /// A bar held at its foot whose nodes start with a velocity along it that grows linearly.
@@ -88,7 +88,7 @@ fn newmark_is_of_second_order() {
 #[test]
 fn a_pressed_and_released_block_does_not_ring() {
     let mesh = MeshSpec::Block { size: [0.04, 0.04, 0.02], elements: [4, 4, 3] };
-    let model = model(&body(mesh, WHEEL_LAW, Element::Q1p0), Some(NodeSet::ZMax));
+    let model = model(&body(mesh, WHEEL_LAW, Element::Q1p0), Some("z-max"));
     let mut s = simulation(&model, Scheme::Dynamic { delta: 0.0 }, Some(road(0.5)));
     s.start(&held(&model, 0.0, 0.0, [0.0; 6])).unwrap();
     let dt = 2e-4;

@@ -76,8 +76,8 @@ fn solved(solver: &mut dyn LinearSolver, system: &System) -> Option<Solved> {
     Some(Solved { y, iterations, seconds, megabytes: resident() - before })
 }
 
-fn multigrid(scene: &Scene) -> Krylov<Multigrid> {
-    Krylov { preconditioner: Multigrid::new(&scene.body.mesh).unwrap(), tolerance: TOLERANCE, most: 200 }
+fn multigrid(model: &Model) -> Krylov<Multigrid> {
+    Krylov { preconditioner: Multigrid::new(&model.mesh).unwrap(), tolerance: TOLERANCE, most: 200 }
 }
 
 /// Residual of the linear equations over their right-hand side.
@@ -100,7 +100,7 @@ fn multigrid_solves_the_wheel_in_few_iterations_and_agrees_with_the_direct_solut
         let scene = scene(fineness, 65.1);
         let model = Model::new(&scene).unwrap();
         let system = pressed(&model, mu);
-        let by_cycles = solved(&mut multigrid(&scene), &system);
+        let by_cycles = solved(&mut multigrid(&model), &system);
         let direct = solved(&mut Direct::default(), &system);
         report("multigrid CG", &model, &by_cycles);
         report("direct", &model, &direct);
@@ -155,7 +155,7 @@ fn table_of_solvers() {
         let scene = scene(fineness, from_env("KAPPA", 65.1));
         let model = Model::new(&scene).unwrap();
         let system = pressed(&model, 1.0);
-        let by_cycles = solved(&mut multigrid(&scene), &system);
+        let by_cycles = solved(&mut multigrid(&model), &system);
         report("multigrid CG", &model, &by_cycles);
         counts.push((model.node_count() as f64, by_cycles.map_or(usize::MAX, |s| s.iterations)));
         if fineness <= from_env("JACOBI", 4.0) as usize {

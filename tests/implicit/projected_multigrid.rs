@@ -6,17 +6,12 @@ use hexroll::implicit::multigrid::Multigrid;
 use hexroll::implicit::relax::{Corrections, Relaxation};
 use hexroll::implicit::{Inner, Limits, Scheme, Simulation};
 use hexroll::model::Model;
-use hexroll::scene::{Element, MeshSpec};
+use hexroll::scene::Element;
 
 const LIMITS: Limits = Limits { tolerance: 1e-9, iterations: 30 };
 
-fn mesh(elements: [usize; 3]) -> MeshSpec {
-    MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements }
-}
-
-fn corrected(elements: [usize; 3]) -> Inner {
-    let cycles =
-        Krylov { preconditioner: Multigrid::new(&mesh(elements)).unwrap(), tolerance: 1e-2, most: 100 };
+fn corrected(model: &Model) -> Inner {
+    let cycles = Krylov { preconditioner: Multigrid::new(&model.mesh).unwrap(), tolerance: 1e-2, most: 100 };
     let relaxation = Relaxation { omega: 1.0, tolerance: 1e-11, sweeps: 2_000 };
     Inner::Corrected(relaxation, Corrections::new(Box::new(cycles)))
 }
@@ -40,8 +35,7 @@ fn it_finds_the_active_sets_solution() {
     let model = wheel(elements, Element::Q1p0);
     for mu in [0.0, 0.1] {
         let mut reference = simulation(&model, Scheme::Static, Some(road(mu)));
-        let mut relaxed =
-            simulation_with(&model, Scheme::Static, Some(road(mu)), corrected(elements), LIMITS);
+        let mut relaxed = simulation_with(&model, Scheme::Static, Some(road(mu)), corrected(&model), LIMITS);
         press(&mut reference, &model);
         let cycles = press(&mut relaxed, &model);
         println!("mu = {mu}: {cycles:?}");
@@ -68,7 +62,7 @@ fn cycles_hardly_depend_on_the_mesh() {
         while fineness <= most {
             let elements = [44, 4, 5].map(|n| n * fineness);
             let model = wheel(elements, Element::Q1p0);
-            let mut s = simulation_with(&model, Scheme::Static, Some(road(mu)), corrected(elements), LIMITS);
+            let mut s = simulation_with(&model, Scheme::Static, Some(road(mu)), corrected(&model), LIMITS);
             let start = std::time::Instant::now();
             let target = held(&model, 1.0, 1.0, [0.0, 0.0, -5e-4, 0.0, 0.0, 0.0]);
             let log = s.step(&target).unwrap_or_else(|e| panic!("{e}"));

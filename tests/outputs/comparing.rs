@@ -183,7 +183,7 @@ fn other_meshes_are_an_error() {
     run(&b, &moved, |_, _| ());
     let text = problem(compare(&a, &b), &b);
     assert!(text.contains("node 8 stands 1.000e-6 m elsewhere"), "{text}");
-    let block = Mesh::generate(&MeshSpec::Block { size: [1.0; 3], elements: [2; 3] }, [0.0; 3], None);
+    let block = Mesh::generate(&MeshSpec::Block { size: [1.0; 3], elements: [2; 3] });
     run(&b, &block, |_, _| ());
     let text = problem(compare(&a, &b), &b);
     assert!(text.contains("(8, 27) elements and nodes"), "{text}");

@@ -7,18 +7,19 @@ use hexroll::model::mesh::Mesh;
 use hexroll::output::RunWriter;
 use hexroll::output::summary::{Summary, Versions};
 use hexroll::record::{ContactNode, ContactState, Sample, Snapshot};
-use hexroll::scene::{MeshSpec, NodeSet};
+use hexroll::scene::MeshSpec;
 use tempfile::TempDir;
 
 /// A wheel away from the origin, so that no coordinate is special.
 pub fn wheel() -> Mesh {
     let spec =
         MeshSpec::Ring { outer_radius: 0.04, inner_radius: 0.0175, width: 0.019, elements: [10, 3, 2] };
-    Mesh::generate(&spec, [0.3, -0.1, 0.002], Some(NodeSet::Inner))
+    let mesh = Mesh::generate(&spec).moved([0.3, -0.1, 0.002]);
+    mesh.with_rim("inner").expect("a ring has an inner cylinder")
 }
 
 pub fn block() -> Mesh {
-    Mesh::generate(&MeshSpec::Block { size: [1.0; 3], elements: [2, 1, 3] }, [0.0; 3], None)
+    Mesh::generate(&MeshSpec::Block { size: [1.0; 3], elements: [2, 1, 3] })
 }
 
 /// Numbers without a pattern that a permutation could keep: another one for every (field, index).

@@ -55,7 +55,7 @@ fn slope(renderer: &mut Renderer, save: &dyn Fn(&str, RgbaImage)) {
     let road = Road::Plane(Plane { point: [0.0; 3], normal: [-sin, 0.0, cos], velocity: [0.0; 3] });
     for (name, size, elements) in [("block_10mm", 0.01, [12, 8, 4]), ("block_1m", 1.0, [60, 40, 20])] {
         let spec = MeshSpec::Block { size: [size, 0.7 * size, 0.35 * size], elements };
-        let mesh = Mesh::generate(&spec, [0.0; 3], None);
+        let mesh = Mesh::generate(&spec);
         let mut snapshot = at_rest(&mesh);
         snapshot.axle = None;
         for (x, X) in snapshot.x.iter_mut().zip(&mesh.nodes) {

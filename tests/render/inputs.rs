@@ -2,7 +2,7 @@
 
 use hexroll::model::mesh::Mesh;
 use hexroll::record::{ContactNode, ContactState, Snapshot};
-use hexroll::scene::{MeshSpec, NodeSet};
+use hexroll::scene::MeshSpec;
 
 pub const OUTER: f64 = 39e-3;
 pub const INNER: f64 = 17e-3;
@@ -15,7 +15,7 @@ pub fn wheel(scale: f64) -> Mesh {
         width: WIDTH * scale,
         elements: [44, 4, 5],
     };
-    Mesh::generate(&spec, [0.0; 3], Some(NodeSet::Inner))
+    Mesh::generate(&spec).with_rim("inner").expect("a ring has an inner cylinder")
 }
 
 /// The wheel as built: nothing deformed, nothing touching.

@@ -1,6 +1,7 @@
 //! Every mistake is answered with file, line, key, what is wrong and what would be right.
 
 use hexroll::Error;
+use hexroll::model::Model;
 use hexroll::scene::Scene;
 
 use crate::{GOOD, good};
@@ -61,11 +62,10 @@ fn unknown_keys_are_answered_with_the_known_ones() {
 
 #[test]
 fn unknown_names_are_answered_with_the_known_ones() {
-    const NAMES: [Mistake; 10] = [
+    const NAMES: [Mistake; 9] = [
         ("\"uniform-gradient\"", "\"q1p1\"", "body.element", "\"q1p1\" is not known", "did you mean q1p0?"),
         ("\"ring\"", "\"sphere\"", "body.mesh.generator", "not known", "ring, block"),
         ("\"mooney-rivlin\"", "\"hooke\"", "body.material.law", "not known", "neo-hookean"),
-        ("\"inner\"", "\"x-min\"", "rim.nodes", "\"x-min\" is not known here", "known here: inner"),
         ("\"plane\"", "\"plain\"", "road.shape", "not known", "did you mean plane?"),
         ("\"coulomb\"", "\"columb\"", "friction.law", "not known", "did you mean coulomb?"),
         ("\"explicit\"", "\"explizit\"", "stage.1.method", "not known", "did you mean explicit?"),
@@ -460,14 +460,41 @@ fn what_comes_later_is_called_unavailable_not_unknown() {
     assert!(shown.starts_with(&format!("bad.toml:{line}: road.shape")), "{shown}");
 }
 
+/// Node sets belong to the mesh: what it does not have is answered where the scene names it, once it is meshed.
 #[test]
-fn a_block_has_faces_but_no_inner_cylinder() {
-    let block = r#"body.mesh={ generator = "block", size = ["1 m", "1 m", "1 m"], elements = [1, 1, 1] }"#;
-    let shown = good(&[block]).unwrap_err().to_string();
+fn node_sets_are_those_of_the_mesh() {
+    let meshed = |overrides: &[&str]| match Model::new(&good(overrides).unwrap()) {
+        Ok(model) => Ok(model.mesh.rim.len()),
+        Err(error) => Err(error.to_string()),
+    };
     let line = line_of("nodes =");
-    let right = "known here: x-min, x-max, y-min, y-max, z-min, z-max";
-    assert_eq!(shown, format!("good.toml:{line}: rim.nodes: \"inner\" is not known here; {right}"));
-    assert!(good(&[block, "rim.nodes=y-max"]).is_ok());
+    let block = r#"body.mesh={ generator = "block", size = ["1 m", "1 m", "1 m"], elements = [1, 1, 1] }"#;
+    assert_eq!(
+        meshed(&[block]).unwrap_err(),
+        format!(
+            "good.toml:{line}: rim.nodes: the mesh has no node set \"inner\"; \
+             known here: all, x-min, x-max, y-min, y-max, z-min, z-max"
+        )
+    );
+    assert_eq!(meshed(&[block, "rim.nodes=y-max"]), Ok(4));
+    assert_eq!(
+        meshed(&["rim.nodes=iner"]).unwrap_err(),
+        "good.toml: rim.nodes: the mesh has no node set \"iner\" (from --set); \
+         did you mean inner? known here: all, inner, outer, y-min, y-max"
+    );
+    let holds = [
+        "gravity=[\"0 m/s2\", \"0 m/s2\", \"0 m/s2\"]",
+        "hold=[{ nodes = \"all\", components = \"y\" }, { nodes = \"x-min\", components = \"y\" }]",
+    ];
+    let shown = meshed(&holds).unwrap_err();
+    assert!(shown.starts_with("good.toml: hold.1.nodes: the mesh has no node set \"x-min\""), "{shown}");
+    let shown = meshed(&["rim.nodes=all"]).unwrap_err();
+    assert!(shown.contains("rim.nodes: the rim has every node"), "{shown}");
+}
+
+#[test]
+fn sizes_of_a_block_are_positive() {
+    let block = r#"body.mesh={ generator = "block", size = ["1 m", "1 m", "1 m"], elements = [1, 1, 1] }"#;
     let flat = block.replace("\"1 m\"]", "\"0 m\"]");
     let shown = good(&[&flat]).unwrap_err().to_string();
     assert!(
@@ -484,7 +511,6 @@ fn holds_gradings_and_friction_laws_are_checked() {
     };
     let no_gravity = "gravity=[\"0 m/s2\", \"0 m/s2\", \"0 m/s2\"]";
     wrong(&["hold=[{ nodes = \"all\" }]"], "hold.0.components", "missing");
-    wrong(&["hold=[{ nodes = \"x-min\", components = \"y\" }]"], "hold.0.nodes", "not known");
     wrong(&["hold=[{ nodes = \"all\", components = \"yw\" }]"], "hold.0.components", "names no components");
     wrong(&["hold=[{ nodes = \"all\", components = \"z\" }]"], "hold.0", "gravity acts along");
     wrong(&[no_gravity, "hold=[{ nodes = \"all\", components = \"z\" }]"], "hold.0", "normal points along");

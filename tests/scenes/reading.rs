@@ -6,8 +6,8 @@ use hexroll::physics::friction::{Coulomb, PressureVelocity, Stribeck, Viscous};
 use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
 use hexroll::physics::road::Plane;
 use hexroll::scene::{
-    Body, Drive, Element, Field, Friction, Hold, InitialVelocity, Law, MeshSpec, Method, NodeSet, Picture,
-    Rim, Road, Scene, Snapshots,
+    Body, Drive, Element, Field, Friction, Hold, InitialVelocity, Law, MeshSpec, Method, Picture, Rim, Road,
+    Scene, Snapshots,
 };
 
 use crate::good;
@@ -32,7 +32,7 @@ fn a_scene_is_read_whole_and_in_si() {
     let MeshSpec::Ring { outer_radius, elements, .. } = scene.body.mesh else { panic!("not a ring") };
     near(outer_radius, 0.039);
     assert_eq!(elements, [12, 2, 2]);
-    assert_eq!(scene.rim, Some(Rim { nodes: NodeSet::Inner }));
+    assert_eq!(scene.rim, Some(Rim { nodes: "inner".into() }));
     let (normal, velocity) = ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0]);
     assert_eq!(scene.road, Some(Road::Plane(Plane { point: [0.0; 3], normal, velocity })));
     assert_eq!((scene.friction, scene.safety), (Some(Friction::Coulomb(Coulomb { mu: 0.8 })), 0.8));
@@ -136,7 +136,7 @@ fn holds_gradings_and_friction_laws_are_read() {
         "friction={ law = \"pressure-velocity\", a = 0.5, b = 0.6, pressure = \"0.3 MPa\", c = 0.3, speed = \"0.5 m/s\" }",
     ])
     .unwrap();
-    assert_eq!(scene.holds, [Hold { nodes: NodeSet::All, components: [false, true, false] }]);
+    assert_eq!(scene.holds, [Hold { nodes: "all".into(), components: [false, true, false] }]);
     assert_eq!(scene.body.grading.ratio, [4.0, 0.5, 1.0]);
     near(scene.body.grading.fine_arc, std::f64::consts::FRAC_PI_2);
     let Some(Friction::PressureVelocity(PressureVelocity { a, b, pressure, c, speed })) = scene.friction

@@ -4,12 +4,16 @@ use serde::Serialize;
 
 use crate::model::Model;
 use crate::physics::parameters::{Parameter, Quantity};
-use crate::scene::{Element, Grading, Law, Lumping, MeshSpec, NodeSet, Scene};
+use crate::scene::{Element, Law, Lumping, Scene};
 
 /// The body as it is meshed.
 #[derive(Debug, Serialize)]
 pub struct Body {
     pub mesh: String,
+    /// Elements round the circumference; none of a mesh without rows of outermost nodes round its axle.
+    pub around: Option<usize>,
+    /// Names that [rim] and [[hold]] may use.
+    pub node_sets: Vec<String>,
     pub elements: usize,
     pub nodes: usize,
     /// Nodes that can touch the road.
@@ -40,11 +44,13 @@ impl Body {
         let [G, kappa, rho] = [law.shear_modulus(), law.bulk_modulus(), scene.body.density];
         let mesh = &model.mesh;
         Body {
-            mesh: mesh_text(&scene.body.mesh) + &grading_text(&scene.body.grading),
+            mesh: mesh.description.clone(),
+            around: mesh.ring().map(|ring| ring.around),
+            node_sets: mesh.sets.names(),
             elements: model.element_count(),
             nodes: model.node_count(),
             surface_nodes: mesh.surface.len(),
-            rim: scene.rim.as_ref().map(|rim| set_name(rim.nodes).into()),
+            rim: scene.rim.as_ref().map(|rim| mesh.sets.meaning(&rim.nodes.name).into()),
             rim_nodes: mesh.rim.len(),
             shape_classes: model.classes.len(),
             element: element_text(scene.body.element),
@@ -63,45 +69,6 @@ impl Body {
             wave_speed_m_s: (law.wave_modulus() / rho).sqrt(),
             shear_wave_speed_m_s: (G / rho).sqrt(),
         }
-    }
-}
-
-fn mesh_text(spec: &MeshSpec) -> String {
-    let mm = |v: f64| format!("{}", (v * 1e9).round() / 1e6);
-    match *spec {
-        MeshSpec::Ring { outer_radius, inner_radius, width, elements: [c, r, w] } => format!(
-            "ring, radii {} and {} mm, width {} mm: {c} x {r} x {w} elements (circumference, radius, width)",
-            mm(outer_radius),
-            mm(inner_radius),
-            mm(width)
-        ),
-        MeshSpec::Block { size, elements: [x, y, z] } => {
-            format!("block, {} mm: {x} x {y} x {z} elements", size.map(mm).join(" x "))
-        }
-    }
-}
-
-fn grading_text(grading: &Grading) -> String {
-    match *grading {
-        Grading { ratio: [1.0, 1.0, 1.0], .. } => String::new(),
-        Grading { ratio: [a, b, c], fine_arc: 0.0 } => format!(", sizes grow by {a}, {b}, {c}"),
-        Grading { ratio: [a, b, c], fine_arc } => {
-            format!(", sizes grow by {a} (outside {:.0} deg), {b}, {c}", fine_arc.to_degrees())
-        }
-    }
-}
-
-pub fn set_name(set: NodeSet) -> &'static str {
-    match set {
-        NodeSet::Inner => "inner cylinder",
-        NodeSet::Outer => "outer cylinder",
-        NodeSet::All => "every node",
-        NodeSet::XMin => "face x-min",
-        NodeSet::XMax => "face x-max",
-        NodeSet::YMin => "face y-min",
-        NodeSet::YMax => "face y-max",
-        NodeSet::ZMin => "face z-min",
-        NodeSet::ZMax => "face z-max",
     }
 }
 

@@ -59,6 +59,11 @@ impl Display for Body {
         let rim =
             self.rim.as_ref().map_or("no rim".into(), |rim| format!("{} of the rim ({rim})", self.rim_nodes));
         line("", format!("{} surface nodes, {rim}", self.surface_nodes))?;
+        let around = match self.around {
+            Some(n) => format!("{n} elements round the axle"),
+            None => "no rows of elements round the axle".into(),
+        };
+        line("", format!("{around}; node sets: {}", self.node_sets.join(", ")))?;
         line("element", self.element.clone())?;
         line("mass", format!("{}: {}", si(1e3 * self.mass_kg, "g"), self.mass_lumping))?;
         line("law", format!("{}: {}", self.law, self.constants))?;

@@ -11,7 +11,9 @@ use std::path::PathBuf;
 
 use super::choose::{self, Precision};
 use super::estimate::{self, Steps};
-use super::{SceneArgs, warnings};
+use super::scene::SceneArgs;
+use super::terminal;
+use super::warnings;
 use crate::Result;
 use crate::engine::Engine;
 use crate::gpu::adapters;
@@ -91,7 +93,7 @@ pub fn execute(args: &CheckArgs) -> Result<()> {
         title: scene.title.clone(),
         expected: scene.expected.clone(),
         body: Body::of(&scene, &model),
-        pieces: stages::pieces(&scene),
+        pieces: stages::pieces(&scene, &model.mesh.sets),
         stages: stages::plans(&scene, &steps),
         gpu: GpuPlan::of(&scene, &model)?,
         steps,
@@ -102,7 +104,7 @@ pub fn execute(args: &CheckArgs) -> Result<()> {
     if let Some(folder) = &args.programs {
         check.gpu.write_sources(folder)?;
     }
-    if args.json { super::print_json(&check) } else { super::print(&check.to_string()) }
+    if args.json { terminal::print_json(&check) } else { terminal::print(&check.to_string()) }
 }
 
 /// Times the CPU engine, and a real GPU if there is one (a software adapter would take seconds to get ready). An

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::Piece;
 use crate::cli::estimate::Steps;
 use crate::cli::format::si;
+use crate::model::mesh::NodeSets;
 use crate::scene::{
     Drive, Field, ImplicitScheme, InitialVelocity, Method, Picture, RimMotion, Scene, Slip, Snapshots, Stage,
 };
@@ -83,7 +84,7 @@ fn motion_text(drive: Drive, [way, load_unit, mass_unit]: [&str; 3]) -> Option<S
 }
 
 /// Optional parts of the physics, those left out included.
-pub fn pieces(scene: &Scene) -> Vec<Piece> {
+pub fn pieces(scene: &Scene, sets: &NodeSets) -> Vec<Piece> {
     let any_damping = scene.stages.iter().filter(|s| s.mass_damping > 0.0).map(|s| format!("{:?}", s.name));
     let damped: Vec<String> = any_damping.collect();
     let free = scene.stages.iter().any(|s| s.rim.drives().iter().any(|d| matches!(d, Drive::Free { .. })));
@@ -92,7 +93,7 @@ pub fn pieces(scene: &Scene) -> Vec<Piece> {
         piece("viscosity", scene.body.viscosity.map(|eta| format!("Kelvin-Voigt, {eta} Pa s in shear"))),
         piece("mass damping", (!damped.is_empty()).then(|| format!("in stage {}", damped.join(", ")))),
         piece("gravity", (scene.gravity != [0.0; 3]).then(|| format!("{:?} m/s2", scene.gravity))),
-        piece("held components", (!scene.holds.is_empty()).then(|| holds(scene))),
+        piece("held components", (!scene.holds.is_empty()).then(|| holds(scene, sets))),
         piece("road", scene.road.map(|road| road.description())),
         piece("friction", scene.friction.map(|law| law.formula())),
         piece(
@@ -105,11 +106,11 @@ pub fn pieces(scene: &Scene) -> Vec<Piece> {
     ]
 }
 
-fn holds(scene: &Scene) -> String {
+fn holds(scene: &Scene, sets: &NodeSets) -> String {
     let hold = |h: &crate::scene::Hold| {
         let names: String =
             ['x', 'y', 'z'].iter().zip(h.components).filter_map(|(c, on)| on.then_some(c)).collect();
-        format!("{names} of {}", super::body::set_name(h.nodes))
+        format!("{names} of {}", sets.meaning(&h.nodes.name))
     };
     scene.holds.iter().map(hold).collect::<Vec<_>>().join(", ")
 }

@@ -1,7 +1,6 @@
-//! Logical grids of generated meshes, and coarser ones made of every other of their nodes.
+//! Logical grids of meshes that are lattices, and coarser ones made of every other of their nodes.
 
-use crate::model::mesh::SIGNS;
-use crate::scene::MeshSpec;
+use crate::model::mesh::{Lattice, SIGNS};
 
 /// Nodes along a logical direction, by their place in elements of the finest mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -71,14 +70,10 @@ pub struct Grid {
 const RING: usize = 8;
 
 impl Grid {
-    /// The grid of a mesh; on a ring direction i is a turn about the axle.
-    pub fn new(spec: &MeshSpec) -> Grid {
-        match *spec {
-            MeshSpec::Ring { elements: [nc, nr, nw], .. } => {
-                Grid { axes: [Axis::new(nc, true), Axis::new(nw, false), Axis::new(nr, false)] }
-            }
-            MeshSpec::Block { elements, .. } => Grid { axes: elements.map(|n| Axis::new(n, false)) },
-        }
+    /// The grid of a lattice; in a closed one direction i is a turn about the axle.
+    pub fn new(lattice: &Lattice) -> Grid {
+        let [ni, nj, nk] = lattice.elements;
+        Grid { axes: [Axis::new(ni, lattice.closed), Axis::new(nj, false), Axis::new(nk, false)] }
     }
 
     /// The next coarser grid. `None`: nothing can be left out any more.
@@ -143,6 +138,7 @@ impl Grid {
 mod tests {
     use super::*;
     use crate::model::mesh::Mesh;
+    use crate::scene::MeshSpec;
 
     #[test]
     fn grids_are_numbered_as_the_generators_do() {
@@ -150,8 +146,8 @@ mod tests {
             MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements: [9, 2, 3] },
             MeshSpec::Block { size: [1.0; 3], elements: [2, 3, 4] },
         ] {
-            let grid = Grid::new(&spec);
-            let mesh = Mesh::generate(&spec, [0.0; 3], None);
+            let mesh = Mesh::generate(&spec);
+            let grid = Grid::new(&mesh.lattice().unwrap());
             assert_eq!(grid.hexes(), mesh.hexes);
             assert_eq!(grid.node_count(), mesh.nodes.len());
         }

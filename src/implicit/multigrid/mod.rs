@@ -1,4 +1,4 @@
-//! A multigrid cycle for meshes that came from a grid.
+//! A multigrid cycle for meshes that are lattices.
 //!
 //! Coarser grids keep every other node (an odd number of elements leaves one that is not doubled), down to a mesh that
 //! is solved directly. Coarse operators are Galerkin products P^T A P: the contact conditions in A and the truncation
@@ -15,8 +15,8 @@ use super::krylov::{LinearSolver, Preconditioner};
 use super::matrix::{Block, BlockMatrix, transposed};
 use super::system::{System, mean_diagonal};
 use crate::error::{Error, Result};
+use crate::model::mesh::Mesh;
 use crate::physics::tensor::Vec3;
-use crate::scene::MeshSpec;
 use grid::Grid;
 use smoother::{ElementBlocks, Way};
 use transfer::Transfer;
@@ -52,10 +52,15 @@ impl Multigrid {
     /// The hierarchy of a mesh.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] where the mesh is too small to coarsen, or has a direction that cannot be coarsened to
-    /// what a direct solution can take.
-    pub fn new(spec: &MeshSpec) -> Result<Multigrid> {
-        let finest = Grid::new(spec);
+    /// [`Error::Unsupported`] where the mesh is no lattice, is too small to coarsen, or has a direction that cannot be
+    /// coarsened to what a direct solution can take.
+    pub fn new(mesh: &Mesh) -> Result<Multigrid> {
+        let other = |what: String| Error::Unsupported {
+            what,
+            instead: "use linear = \"direct\", or \"block-jacobi\"".into(),
+        };
+        let no_lattice = || other("multigrid on a mesh that is not numbered as a lattice".into());
+        let finest = Grid::new(&mesh.lattice().ok_or_else(no_lattice)?);
         let mut elements = vec![finest.elements()];
         let smoother = ElementBlocks::new(finest.hexes(), finest.elements());
         let mut levels = Vec::new();
@@ -72,10 +77,9 @@ impl Multigrid {
             fine = coarse;
         }
         if levels.is_empty() || fine.node_count() > DIRECT {
-            return Err(Error::Unsupported {
-                what: format!("multigrid on {spec:?}, which can be coarsened {} times", levels.len()),
-                instead: "use linear = \"direct\", or \"block-jacobi\"".into(),
-            });
+            let [i, j, k] = elements[0];
+            let times = levels.len();
+            return Err(other(format!("multigrid on {i} x {j} x {k} elements, coarsened {times} times")));
         }
         Ok(Multigrid {
             levels,

@@ -233,9 +233,9 @@ mod tests {
     #[test]
     fn positions_about_the_axle_are_interpolated_exactly() {
         for spec in cases() {
-            let fine = Grid::new(&spec);
+            let mesh = Mesh::generate(&spec);
+            let fine = Grid::new(&mesh.lattice().unwrap());
             let coarse = fine.coarser().unwrap();
-            let mesh = Mesh::generate(&spec, [0.0; 3], None);
             let ring = fine.round().is_some();
             let arm = |x: &Vec3<f64>| -> Vec3<f64> {
                 if ring { std::array::from_fn(|i| x[i] - mesh.axle[i]) } else { *x }
@@ -261,7 +261,7 @@ mod tests {
     #[test]
     fn the_coarse_operator_is_the_one_between_the_transfers() {
         for spec in cases() {
-            let fine = Grid::new(&spec);
+            let fine = Grid::new(&Mesh::generate(&spec).lattice().unwrap());
             let coarse = fine.coarser().unwrap();
             let t = Transfer::new(&fine, &coarse);
             let mut a = BlockMatrix::of_mesh(fine.node_count(), &fine.hexes());

@@ -10,8 +10,8 @@
 use super::{Relaxation, Sweep};
 use crate::implicit::contact::{Equations, Status, Surface, frame};
 use crate::implicit::krylov::LinearSolver;
+use crate::implicit::linearised::Failure;
 use crate::implicit::matrix::{axpy, dot, times, transposed};
-use crate::implicit::newton::Failure;
 use crate::implicit::system::System;
 use crate::physics::tensor::{self, Vec3, add, sub};
 

@@ -15,10 +15,9 @@ mod rim;
 pub use correction::Corrections;
 
 use super::contact::Status;
+use super::linearised::{Correction, Failure, Linearised};
 use super::matrix::{Block, BlockMatrix, inverse, times};
-use super::newton::Failure;
 use super::problem::{Increment, Iterate, Problem, Residual};
-use super::system::Correction;
 use crate::physics::tensor::{Vec3, add, axpy, sub};
 use node::NodeProblem;
 use rim::RimBlock;
@@ -54,17 +53,6 @@ struct Sweep<'a> {
     force: Vec<Vec3<f64>>,
     status: Vec<Status>,
     rim: RimBlock,
-}
-
-/// What is relaxed: K d = -r + contact forces.
-#[derive(Clone, Copy)]
-pub struct Linearised<'a> {
-    pub problem: &'a Problem<'a>,
-    pub inc: &'a Increment,
-    pub residual: &'a Residual,
-    pub matrix: &'a BlockMatrix,
-    /// Force scale [N].
-    pub scale: f64,
 }
 
 /// Relaxes by sweeps, with corrections between them if there are any. On success the iterate's states are those of the

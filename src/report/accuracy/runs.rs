@@ -12,7 +12,7 @@ use crate::model::Model;
 use crate::record::{Sample, Snapshot};
 use crate::report::bench::{block, hold};
 use crate::run::{self, Observer, Progress, stability};
-use crate::scene::{Element, NodeSet, Scene};
+use crate::scene::{Element, Scene};
 use crate::{Error, Result};
 
 /// What is measured with what.
@@ -316,7 +316,7 @@ pub(super) fn wave(setting: &Setting, threads: usize, gpu: Option<&Gpu>) -> Resu
     let h = 1.0 / n as f64;
     let mut scene = block([1.0, 8.0 * h, 8.0 * h], [n, 8, 8]);
     scene.body.element = setting.element;
-    scene.holds = vec![hold(NodeSet::All, "yz")];
+    scene.holds = vec![hold("all", "yz")];
     let model = Model::new(&scene)?;
     let mut engine = engine(setting, &model, &scene, threads, gpu)?;
     engine.begin_stage(&crate::engine::StageSetup::default())?;

@@ -212,7 +212,7 @@ fn thrown(speed: f64, tumble: [f64; 3]) -> Scene {
 /// The pressed block of a bad mesh: `shape` moves its reference nodes.
 fn misshapen(elements: [usize; 3], shape: impl Fn([f64; 3]) -> [f64; 3]) -> Result<(Scene, Model)> {
     let mut scene = block([0.04, 0.02, 0.02], elements);
-    scene.rim = Some(Rim { nodes: NodeSet::ZMax });
+    scene.rim = Some(Rim { nodes: "z-max".into() });
     scene.road = Some(GROUND);
     scene.friction = Some(Friction::Coulomb(Coulomb { mu: 0.5 }));
     scene.body.viscosity = Some(1.0);

@@ -8,7 +8,7 @@ use crate::Result;
 use crate::physics::road::Plane;
 use crate::report::bench::{DENSITY, G, KAPPA, block, hold, simulate};
 use crate::report::{Case, Claim};
-use crate::scene::{NodeSet, Road};
+use crate::scene::Road;
 
 pub const CASE: Case = Case {
     name: "bar_impact",
@@ -29,7 +29,7 @@ fn once() -> Result<Vec<Claim>> {
     let h = LENGTH / count as f64;
     let c = ((KAPPA + 4.0 / 3.0 * G) / DENSITY).sqrt();
     let mut scene = block([LENGTH, h, h], [count, 1, 1]);
-    scene.holds = vec![hold(NodeSet::All, "yz")];
+    scene.holds = vec![hold("all", "yz")];
     scene.road = Some(WALL);
     scene.body.velocity = [-SPEED, 0.0, 0.0];
     let contact = 2.0 * LENGTH / c;
@@ -81,7 +81,7 @@ fn often() -> Result<Vec<Claim>> {
     let count = 25;
     let h = LENGTH / count as f64;
     let mut scene = block([LENGTH, h, h], [count, 1, 1]);
-    scene.holds = vec![hold(NodeSet::All, "yz")];
+    scene.holds = vec![hold("all", "yz")];
     scene.road = Some(WALL);
     let (g, drop) = (9.81, 1e-3);
     scene.gravity = [-g, 0.0, 0.0];

@@ -13,7 +13,7 @@ use crate::Result;
 use crate::physics::material::NeoHookean;
 use crate::report::bench::{DENSITY, G, HELD, block, explicit, hold, simulate};
 use crate::report::{Case, Claim};
-use crate::scene::{Drive, Element, Law, Method, NodeSet, Rim, RimMotion, Stage};
+use crate::scene::{Drive, Element, Law, Method, Rim, RimMotion, Stage};
 
 pub const CASE: Case = Case {
     name: "bonded_strip",
@@ -35,8 +35,8 @@ fn modulus(ratio: f64, element: Element, [nx, nz]: [usize; 2]) -> Result<f64> {
     let mut scene = block([HALF, depth, THICK], [nx, 1, nz]);
     scene.body.element = element;
     scene.body.law = Law::NeoHookean(NeoHookean { g0: ratio * G, g1: G });
-    scene.holds = vec![hold(NodeSet::All, "y"), hold(NodeSet::XMin, "x"), hold(NodeSet::ZMin, "xyz")];
-    scene.rim = Some(Rim { nodes: NodeSet::ZMax });
+    scene.holds = vec![hold("all", "y"), hold("x-min", "x"), hold("z-min", "xyz")];
+    scene.rim = Some(Rim { nodes: "z-max".into() });
     // Slowest: shear of the layer, pi c_s / t and, where the bulk modulus lets the pressure spread, slower still.
     let shear = std::f64::consts::PI / THICK * (G / DENSITY).sqrt();
     let down = Drive::Displacement { to: -STRAIN * THICK, ramp: 60.0 / shear };

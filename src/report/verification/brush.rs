@@ -38,7 +38,7 @@ fn rolled(tangent: f64) -> Result<[f64; 2]> {
     scene.body.law = Law::NeoHookean(NeoHookean { g0: 2.0 / 3.0 * G, g1: G });
     scene.body.element = Element::Full;
     scene.body.viscosity = Some(1.0);
-    scene.rim = Some(Rim { nodes: NodeSet::Inner });
+    scene.rim = Some(Rim { nodes: "inner".into() });
     scene.road = Some(GROUND);
     scene.friction = Some(Friction::Coulomb(Coulomb { mu: MU }));
     scene.output.sample = 2e-4;

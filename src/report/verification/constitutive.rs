@@ -5,7 +5,6 @@
 //! G (l^2 - l^-4) in equibiaxial tension, G g in simple shear.
 
 use crate::Result;
-use crate::cpu::element_forces;
 use crate::model::Model;
 use crate::physics::element::hex8;
 use crate::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean, Yeoh};
@@ -39,7 +38,7 @@ fn cauchy(model: &Model, F: &Matrix) -> Matrix {
         let X = model.mesh.nodes[n as usize];
         std::array::from_fn(|i| (0..3).map(|c| F[c][i] * X[c]).sum::<f64>())
     });
-    let f = element_forces(model, 0, &x, &[[0.0; 3]; 8]);
+    let f = model.element_forces(0, &x, &[[0.0; 3]; 8]);
     let volume = hex8::volume(&x);
     std::array::from_fn(|j| std::array::from_fn(|i| (0..8).map(|a| f[a][i] * x[a][j]).sum::<f64>() / volume))
 }

@@ -30,8 +30,8 @@ pub fn slice(law: Law, arc: f64, friction: Option<Friction>) -> Scene {
     });
     scene.body.law = law;
     scene.body.grading = Grading { ratio: [growth(arc, around, fine), 0.12, 1.0], fine_arc: arc };
-    scene.holds = vec![hold(NodeSet::All, "y")];
-    scene.rim = Some(Rim { nodes: NodeSet::Inner });
+    scene.holds = vec![hold("all", "y")];
+    scene.rim = Some(Rim { nodes: "inner".into() });
     scene.road = Some(GROUND);
     scene.friction = friction;
     scene.output.sample = 1e-4;

@@ -28,8 +28,8 @@ const RADIUS: f64 = 0.05;
 fn scene() -> Scene {
     let mut scene = block([EDGE; 3], [24, 24, 20]);
     scene.body.grading = Grading { ratio: [20.0; 3], fine_arc: 0.0 };
-    scene.holds = vec![hold(NodeSet::XMin, "x"), hold(NodeSet::YMin, "y")];
-    scene.rim = Some(Rim { nodes: NodeSet::ZMax });
+    scene.holds = vec![hold("x-min", "x"), hold("y-min", "y")];
+    scene.rim = Some(Rim { nodes: "z-max".into() });
     scene.road = Some(GROUND);
     scene.output.sample = 1e-4;
     let z = Drive::Displacement { to: -2.5e-5, ramp: 1.5e-3 };

@@ -111,7 +111,7 @@ fn steady() -> Result<Vec<Claim>> {
     scene.road =
         Some(Road::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], velocity: [speed, 0.0, 0.0] }));
     scene.friction = Some(law);
-    scene.rim = Some(Rim { nodes: NodeSet::ZMax });
+    scene.rim = Some(Rim { nodes: "z-max".into() });
     let down = Drive::Displacement { to: -2e-4, ramp: 1e-2 };
     let press = Stage { rim: RimMotion { z: down, ..HELD }, ..explicit("press", 0.015) };
     scene.stages = vec![press, explicit("slide", 0.02)];

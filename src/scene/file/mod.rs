@@ -44,10 +44,11 @@
 //! viscosity = "20 Pa s"               # Kelvin-Voigt shear viscosity, >= 0; default 0: none
 //!
 //! [rim]                               # optional: these nodes are one rigid body
-//! nodes = "inner"                     # of a ring; of a block "x-min", "x-max", "y-min", ... "z-max"
+//! nodes = "inner"                     # a node set of the mesh: of a ring "inner", "outer", "y-min", "y-max"; of a block
+//!                                     # "x-min", "x-max", "y-min", ... "z-max"
 //!
 //! [[hold]]                            # optional, any number: components of nodes that stay at rest
-//! nodes = "y-min"                     # "all"; of a ring "inner", "outer", "y-min", "y-max"; of a block "x-min", ...
+//! nodes = "y-min"                     # a node set of the mesh, as in [rim], or "all"
 //! components = "y"                    # some of x, y, z; neither gravity nor the road may push along them
 //!
 //! [road]                              # optional: rigid, the body stays on the side of the normal
@@ -198,12 +199,12 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
     table.only(&SECTIONS, &LATER)?;
     let text = |key| table.get(key).map_or(Ok(String::new()), |item| item.text().map(Into::into));
     let body = body::body(&table.section("body", "[body]")?)?;
-    let rim = table.get("rim").map(|item| world::rim(&item, &body.mesh)).transpose()?;
+    let rim = table.get("rim").map(|item| world::rim(&item)).transpose()?;
     let road = table.get("road").map(|item| world::road(&item)).transpose()?;
     let gravity = table.vector_or_zero("gravity", &ACCELERATION)?;
     let holds = match table.get("hold") {
         Some(item) => {
-            let holds = world::holds(&item, &body.mesh)?;
+            let holds = world::holds(&item)?;
             world::check_holds(&item, &holds, gravity, road.as_ref())?;
             holds
         }

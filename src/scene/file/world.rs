@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::physics::road::{Drum, Plane};
 use crate::scene::reader::{Bound, Item, Later, Table};
 use crate::scene::units::{ANGULAR_VELOCITY, LENGTH, VELOCITY};
-use crate::scene::{Friction, Hold, MeshSpec, NodeSet, Rim, Road};
+use crate::scene::{Friction, Hold, NodeSet, Rim, Road};
 
 /// A road may move in its plane only, up to this share of its speed (round-off of a tilted normal).
 const IN_PLANE: f64 = 1e-9;
@@ -23,41 +23,21 @@ const LATER_ROADS: [Later; 5] = [
 const LATER_FRICTION: [Later; 1] =
     [("table", "use law = \"coulomb\", \"viscous\", \"stribeck\" or \"pressure-velocity\"")];
 
-const FACES: [(&str, NodeSet); 6] = [
-    ("x-min", NodeSet::XMin),
-    ("x-max", NodeSet::XMax),
-    ("y-min", NodeSet::YMin),
-    ("y-max", NodeSet::YMax),
-    ("z-min", NodeSet::ZMin),
-    ("z-max", NodeSet::ZMax),
-];
-
-pub(super) fn rim(item: &Item, mesh: &MeshSpec) -> Result<Rim> {
+pub(super) fn rim(item: &Item) -> Result<Rim> {
     let table = item.table()?;
     table.only(&["nodes"], &[])?;
-    let inner = [("inner", NodeSet::Inner)];
-    let sets: &[_] = if matches!(mesh, MeshSpec::Ring { .. }) { &inner } else { &FACES };
-    Ok(Rim { nodes: table.need("nodes", &format!("\"{}\"", sets[0].0))?.choice(sets, &[])? })
+    Ok(Rim { nodes: NodeSet::read(&table.need("nodes", "\"inner\"")?)? })
 }
 
 /// Every `[[hold]]`.
-pub(super) fn holds(item: &Item, mesh: &MeshSpec) -> Result<Vec<Hold>> {
-    item.entries()?.iter().map(|entry| hold(entry, mesh)).collect()
+pub(super) fn holds(item: &Item) -> Result<Vec<Hold>> {
+    item.entries()?.iter().map(hold).collect()
 }
 
-fn hold(item: &Item, mesh: &MeshSpec) -> Result<Hold> {
+fn hold(item: &Item) -> Result<Hold> {
     let table = item.table()?;
     table.only(&["nodes", "components"], &[])?;
-    let ring = [
-        ("all", NodeSet::All),
-        ("inner", NodeSet::Inner),
-        ("outer", NodeSet::Outer),
-        ("y-min", NodeSet::YMin),
-        ("y-max", NodeSet::YMax),
-    ];
-    let block = [&[("all", NodeSet::All)], &FACES[..]].concat();
-    let sets: &[_] = if matches!(mesh, MeshSpec::Ring { .. }) { &ring } else { &block };
-    let nodes = table.need("nodes", "\"y-min\"")?.choice(sets, &[])?;
+    let nodes = NodeSet::read(&table.need("nodes", "\"y-min\"")?)?;
     let item = table.need("components", "\"y\"")?;
     let text = item.text()?;
     let components = ['x', 'y', 'z'].map(|c| text.contains(c));

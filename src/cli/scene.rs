@@ -1,0 +1,27 @@
+//! The scene that a command is about.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::scene::Scene;
+use crate::{Error, Result};
+
+/// A scene file with changes.
+#[derive(Debug, Args)]
+pub struct SceneArgs {
+    /// Scene file (TOML)
+    pub scene: PathBuf,
+    /// Change an entry of the scene: a dotted path, entries of arrays by index; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub sets: Vec<String>,
+}
+
+impl SceneArgs {
+    /// The scene, and its text with the changes in it.
+    pub fn load(&self) -> Result<(Scene, String)> {
+        let text = std::fs::read_to_string(&self.scene).map_err(Error::io(&self.scene, "read the scene"))?;
+        let file = self.scene.to_string_lossy();
+        Ok((Scene::parse(&text, &file, &self.sets)?, Scene::effective_text(&text, &file, &self.sets)?))
+    }
+}

@@ -1,0 +1,54 @@
+//! Rows of the history and whole fields, handed to the observer.
+
+use super::fields::{self, Moment};
+use super::footprint::Footprint;
+use super::ledger::WindowEnd;
+use super::observer::Progress;
+use super::state::{Run, State};
+use crate::engine::Window;
+use crate::error::{Error, Result};
+use crate::record::Sample;
+use crate::scene::Stage;
+
+/// Error of the stored-energy balance, over the largest term, at which a run is ended. Hard impacts leave some per cent.
+pub const GARBAGE: f64 = 0.25;
+
+impl Run<'_> {
+    /// Books a window whose last step was `dt` long, and hands out its row.
+    pub fn book(&mut self, stage: &Stage, dt: f64, window: &Window, footprint: &Footprint) -> Result<Sample> {
+        let (time, length) = (self.state.totals.time, self.state.recorder.force_time);
+        let at = WindowEnd { time, length, dt, stage: stage.name.clone() };
+        let row = self.state.totals.ledger.row(self.scene.road.as_ref(), &at, window, footprint);
+        let totals = &self.state.totals;
+        let end = self.state.recorder.end;
+        let progress = Progress { stage: &stage.name, time, end, steps: totals.steps, totals };
+        self.observer.sample(&row, &progress)?;
+        Ok(row)
+    }
+
+    /// Ends a run whose energies do not add up: a step beyond the critical one need not turn an element inside out.
+    pub fn balanced(&self, row: &Sample) -> Result<()> {
+        let (recorder, totals) = (&self.state.recorder, &self.state.totals);
+        let error = (row.stored_balance_error_J - recorder.unbalanced).abs();
+        let share = error / totals.ledger.largest_term;
+        match error > recorder.negligible && share > GARBAGE {
+            true => Err(Error::Unbalanced { step: totals.steps, time: row.time_s, share }),
+            false => Ok(()),
+        }
+    }
+
+    /// Hands out a snapshot if one is due; whether it was.
+    pub fn snapshots(&mut self, stage: &Stage, window: &Window, last: bool) -> Result<bool> {
+        let output = &self.scene.output;
+        let State { totals, recorder, .. } = &mut self.state;
+        if !recorder.wants_fields(output.snapshots, totals.time, output.sample, last) {
+            return Ok(false);
+        }
+        let state = self.engine.state()?;
+        let moment = Moment { time: totals.time, step: totals.steps, length: recorder.force_time };
+        let worn = &totals.ledger.friction_energy;
+        let snapshot = fields::snapshot(self.model, self.scene.road.as_ref(), &moment, state, window, worn);
+        self.observer.snapshot(&snapshot, &stage.name)?;
+        Ok(true)
+    }
+}

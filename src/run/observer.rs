@@ -1,0 +1,37 @@
+//! Who listens to a simulation, and what it is told.
+
+use super::totals::Totals;
+use crate::error::Result;
+use crate::record::{NewtonRow, Sample, Snapshot};
+
+/// Where a simulation stands.
+#[derive(Debug, Clone, Copy)]
+pub struct Progress<'a> {
+    pub stage: &'a str,
+    pub time: f64,
+    /// Latest possible end of the simulation [s]; a quasi-static stage may end sooner.
+    pub end: f64,
+    pub steps: u64,
+    /// What would be returned if the simulation ended here.
+    pub totals: &'a Totals,
+}
+
+/// Who listens to a simulation.
+pub trait Observer {
+    /// A window has ended.
+    fn sample(&mut self, sample: &Sample, progress: &Progress) -> Result<()>;
+    /// Whole fields, as often as the scene asks.
+    fn snapshot(&mut self, snapshot: &Snapshot, stage: &str) -> Result<()>;
+    /// A line for the log: iterations of an implicit increment, and the like.
+    fn note(&mut self, _line: &str) -> Result<()> {
+        Ok(())
+    }
+    /// The iterations of an implicit increment, converged or not.
+    fn increment(&mut self, _iterations: &[NewtonRow]) -> Result<()> {
+        Ok(())
+    }
+    /// Asked after every window: end here, keeping everything.
+    fn interrupted(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,59 @@
+//! What a simulation knows of itself as it goes, and when it is over.
+
+use super::ledger::Ledger;
+use crate::record::{ContactNoise, Estimate};
+
+/// What a finished simulation knows of itself.
+#[derive(Debug, Clone, Default)]
+pub struct Totals {
+    pub steps: u64,
+    pub time: f64,
+    pub dt_min: f64,
+    pub dt_max: f64,
+    /// First and smallest critical step found [s], and the bound from single elements at rest.
+    pub critical_first: f64,
+    pub critical_min: f64,
+    pub element_bound: f64,
+    /// Eigenvalue iterations spent on it (two force passes each).
+    pub lanczos_iterations: usize,
+    /// Of implicit stages: increments, cuts, Newton iterations, iterations or sweeps of the inner solver.
+    pub implicit: ImplicitCounts,
+    pub ledger: Ledger,
+    /// Scatter of the road's force in every stage that has ended; none in implicit stages, and without a road.
+    pub noise: Vec<Option<ContactNoise>>,
+    /// Free-rolling radius that the last longitudinal slip was related to, or that was measured since [m].
+    pub free_radius: Option<f64>,
+    /// Classes of its own errors, as the last stage that has ended leaves them.
+    pub estimate: Estimate,
+    /// Whether an observer ended it.
+    pub interrupted: bool,
+}
+
+/// What implicit stages cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ImplicitCounts {
+    pub increments: usize,
+    pub cuts: usize,
+    pub newton: usize,
+    /// Iterations of the linear solver, or sweeps of the relaxation.
+    pub inner: usize,
+}
+
+impl Totals {
+    /// Of a simulation that has not begun; `element_bound` is the critical step of single elements at rest [s].
+    pub(super) fn start(element_bound: f64) -> Totals {
+        let mut totals =
+            Totals { element_bound, dt_min: f64::INFINITY, critical_min: f64::INFINITY, ..Totals::default() };
+        // The reference shape stores nothing.
+        totals.ledger.start(0.0);
+        totals
+    }
+
+    /// Books `count` steps of `dt` that end at `time`.
+    pub(super) fn stepped(&mut self, time: f64, dt: f64, count: usize) {
+        self.time = time;
+        self.steps += count as u64;
+        self.dt_min = self.dt_min.min(dt);
+        self.dt_max = self.dt_max.max(dt);
+    }
+}
