@@ -12,8 +12,6 @@ pub struct Row {
     pub f: [usize; 4],
     /// Whether the slot holds forces of an earlier row already.
     pub add: [bool; 4],
-    /// Numbers of these lines.
-    pub lines: [usize; 4],
 }
 
 impl Row {
@@ -127,7 +125,7 @@ mod tests {
     use super::*;
 
     fn row(count: usize) -> Row {
-        Row { count, closed: true, x: [0; 4], f: [0; 4], add: [false; 4], lines: [0; 4] }
+        Row { count, closed: true, x: [0; 4], f: [0; 4], add: [false; 4] }
     }
 
     #[test]

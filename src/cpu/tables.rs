@@ -1,0 +1,99 @@
+//! A model's numbers as the passes read them: tables by place, line and lane.
+
+use super::energies::Stored;
+use super::nodes::NO_SURFACE;
+use super::plan::Plan;
+use super::rim::RimState;
+use super::state::{Aligned, Field};
+use crate::model::Model;
+use crate::physics::lanes::Level;
+use crate::physics::scalar::Real;
+use std::ops::Range;
+
+/// Lumped masses [kg] and their inverses, by place.
+pub fn masses<T: Real>(model: &Model, plan: &Plan) -> [Aligned<T>; 2] {
+    let mut masses = [Aligned::zeros(plan.places), Aligned::zeros(plan.places)];
+    for (&place, &m) in plan.place.iter().zip(&model.mass) {
+        for (table, value) in masses.iter_mut().zip([m, 1.0 / m]) {
+            table.slice_mut()[place as usize] = T::from_f64(value);
+        }
+    }
+    masses
+}
+
+/// Tables of the lanes of batches with rim or surface nodes: number among the `surface` nodes, and position relative to the
+/// axle [m] of a rim node, zero for others.
+pub fn boundary<T: Real>(model: &Model, plan: &Plan, surface: &[u32], width: usize) -> (Vec<u32>, Field<T>) {
+    let mut lane_of = vec![0; model.node_count()];
+    for line in &plan.lines {
+        for (batch, nodes) in line.batches.iter().zip(line.nodes.chunks(width)) {
+            nodes.iter().zip(batch.boundary..).for_each(|(&n, at)| lane_of[n as usize] = at as usize);
+        }
+    }
+    let mut surface_of = vec![NO_SURFACE; plan.boundary];
+    for (k, &n) in surface.iter().enumerate() {
+        surface_of[lane_of[n as usize]] = k as u32;
+    }
+    let mut rim_arms = Field::zeros(plan.boundary);
+    for &n in &model.mesh.rim {
+        rim_arms.set(lane_of[n as usize], sub64(model.mesh.nodes[n as usize], model.mesh.axle));
+    }
+    (surface_of, rim_arms)
+}
+
+pub fn stored(model: &Model, plan: &Plan, level: Level, width: usize) -> Stored {
+    Stored {
+        composition: model.composition(),
+        level,
+        classes: model.classes.clone(),
+        shapes: plan.shapes.clone(),
+        width,
+    }
+}
+
+/// Reference geometry by lanes: these numbers of every class, one after the other.
+pub fn shape_table<T: Real>(model: &Model, plan: &Plan, width: usize, numbers: Range<usize>) -> Aligned<T> {
+    let length = numbers.len();
+    let mut table = Aligned::zeros(plan.shapes.len() * length * width);
+    for (lanes, part) in plan.shapes.iter().zip(table.slice_mut().chunks_exact_mut(length * width)) {
+        for (lane, class) in lanes[..width].iter().enumerate() {
+            let of_class = &model.classes[*class as usize].numbers()[numbers.clone()];
+            for (i, number) in of_class.iter().enumerate() {
+                part[i * width + lane] = T::from_f64(*number);
+            }
+        }
+    }
+    table
+}
+
+/// Line and index in it of every node of the rim, in the mesh's order.
+pub fn rim_nodes(model: &Model, plan: &Plan) -> Vec<(usize, usize)> {
+    let mut at = vec![(0, 0); model.node_count()];
+    for (number, line) in plan.lines.iter().enumerate() {
+        for (i, &n) in line.nodes.iter().enumerate() {
+            at[n as usize] = (number, i);
+        }
+    }
+    model.mesh.rim.iter().map(|&n| at[n as usize]).collect()
+}
+
+pub fn rim_state(model: &Model) -> RimState {
+    let mass = |n: &u32| model.mass[*n as usize];
+    let axle = model.mesh.axle;
+    let [x, y, z] = axle;
+    let rim = &model.mesh.rim;
+    let arm2 = |n: &u32| {
+        let arm = sub64(model.mesh.nodes[*n as usize], axle);
+        arm[0] * arm[0] + arm[2] * arm[2]
+    };
+    RimState {
+        q: [x, y, z, 0.0, 0.0, 0.0],
+        rate: [0.0; 6],
+        node_mass: rim.iter().map(mass).sum(),
+        node_inertia: rim.iter().map(|n| mass(n) * arm2(n)).sum(),
+    }
+}
+
+pub fn sub64(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|d| a[d] - b[d])
+}
