@@ -1,8 +1,7 @@
 //! The steps that a team takes, and how the rim goes meanwhile.
 
-use super::nodes::Conditions;
 use super::rim::{Reaction, RimState};
-use super::world::World;
+use super::world::{Conditions, World};
 use crate::engine::{StageSetup, Step};
 use crate::physics::scalar::Real;
 

@@ -3,15 +3,13 @@
 use super::course::Course;
 use super::energies::Stored;
 use super::layout::Item;
-use super::nodes::LineSums;
 use super::plan::Plan;
 use super::program::Program;
-use super::reduce::total;
 use super::rim::RimState;
 use super::shared::Arrays;
 use super::state::Field;
 use super::steps::{Stopped, Taken};
-use super::tables::{rim_state, stored};
+use super::sums::{LineSums, total};
 use super::world::World;
 use crate::engine::{Engine, EngineInfo, StageSetup, State, Step, StepContact, SurfaceSum, Window};
 use crate::error::{Error, Result};
@@ -81,7 +79,7 @@ impl<T: Real> CpuEngine<T> {
         let before = [Field::zeros(plan.places), Field::zeros(plan.places)];
         let grain = frame::grain(mesh);
         let frame = frame::shift(grain, mesh.axle, [0.0; 3], road.as_ref());
-        let stored = stored(model, &plan, level, width);
+        let stored = Stored::new(model, &plan, level, width);
         let program = Program::new(model, plan, &surface_nodes, level, width);
         program.fill(&mut arrays.x, &mesh.nodes, frame);
         let mut engine = CpuEngine {
@@ -99,7 +97,7 @@ impl<T: Real> CpuEngine<T> {
             viscous: model.viscosity.is_some(),
             mesh: scene.friction.filter(Friction::needs_area).map(|_| mesh.clone()),
             setup: StageSetup::default(),
-            rim: rim_state(model),
+            rim: RimState::new(model),
             grain,
             before,
             surface_nodes,

@@ -63,32 +63,42 @@
 //!
 //! # Who knows whom
 //!
-//! Each file knows those to its right, never back:
+//! A file knows those below it that it names, and none above it:
 //!
 //! ```text
-//! engine -> steps -> course -> world ----------------\
-//!                 -> program -> elements -> rows       -> nodes -> layout -> rows
-//!                            -> tables -> energies    /         -> state
-//!                 -> shared -> plan/* -> layout
-//!                 -> team, reduce, rim
+//! engine      the trait of engines: windows, states, failures
+//! steps       a team goes through early and late tasks      course   the steps to take, and the rim meanwhile
+//! program     the plan with its passes and tables           team     threads that meet
+//! elements    forces of an item: fetch -> formulation -> scatter
+//! nodes       a step of a line: touch (contact), books (works)
+//! shared      arrays that threads write, and the contract
+//! tables      masses, shapes, arms by place and lane        energies stored energies of a sample
+//! plan/*      from a model to items, lines, shares
+//! layout      items and lines                               world    conditions of a step
+//! rows        batches of lanes                              rim      its own equation of motion
+//! state       aligned arrays                                sums     of a line, and of all
 //! ```
 
+mod books;
 mod course;
 mod elements;
 mod energies;
 mod engine;
+mod fetch;
 mod layout;
 mod nodes;
 mod plan;
 mod program;
-mod reduce;
 mod rim;
 mod rows;
+mod scatter;
 mod shared;
 mod state;
 mod steps;
+mod sums;
 mod tables;
 mod team;
+mod touch;
 mod world;
 
 pub use elements::element_forces;

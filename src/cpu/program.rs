@@ -1,10 +1,9 @@
 //! A compiled body: its plan with the numbers that go with it. Constant while steps are taken.
 
 use super::elements::{self, Elements, Kernel};
-use super::nodes::Nodes;
 use super::plan::{Plan, Share};
 use super::state::Field;
-use super::tables::{boundary, masses, rim_nodes, shape_table, sub64};
+use super::tables::{Nodes, boundary, masses, shape_table, sub64};
 use crate::model::Model;
 use crate::physics::lanes::Level;
 use crate::physics::scalar::Real;
@@ -64,4 +63,15 @@ impl<T: Real> Program<T> {
             }
         }
     }
+}
+
+/// Line and index in it of every node of the rim, in the mesh's order.
+fn rim_nodes(model: &Model, plan: &Plan) -> Vec<(usize, usize)> {
+    let mut at = vec![(0, 0); model.node_count()];
+    for (number, line) in plan.lines.iter().enumerate() {
+        for (i, &n) in line.nodes.iter().enumerate() {
+            at[n as usize] = (number, i);
+        }
+    }
+    model.mesh.rim.iter().map(|&n| at[n as usize]).collect()
 }

@@ -1,8 +1,8 @@
 //! What the threads of a step write, and the contract under which they do.
 
-use super::nodes::{Books, LineContact, LineSums};
 use super::plan::Plan;
-use super::state::{Field, View};
+use super::state::Field;
+use super::sums::{LineContact, LineSums};
 use crate::engine::SurfaceSum;
 use crate::physics::lanes::WIDEST;
 use crate::physics::scalar::Real;
@@ -43,17 +43,15 @@ impl<T: Real> Arrays<T> {
 
     /// The arrays as threads share them, nobody else meanwhile.
     pub fn shared(&mut self) -> Shared<'_, T> {
-        let [even, odd] = self.contact.each_mut().map(|c| c.as_mut_ptr());
-        let mut books = |contact| Books {
+        Shared {
+            x: self.x.pointers(),
+            v: self.v.pointers(),
+            f: self.f.pointers(),
+            power: self.power.as_mut_ptr(),
+            sums: self.sums.as_mut_ptr(),
             surface: self.surface.as_mut_ptr(),
             last_touch: self.last_touch.as_mut_ptr(),
-            sums: self.sums.as_mut_ptr(),
-            contact,
-        };
-        Shared {
-            view: View { x: self.x.pointers(), v: self.v.pointers(), f: self.f.pointers() },
-            books: [books(even), books(odd)],
-            power: self.power.as_mut_ptr(),
+            contact: self.contact.each_mut().map(|c| c.as_mut_ptr()),
             surface_lines: self.contact[0].len(),
             arrays: PhantomData,
         }
@@ -84,9 +82,14 @@ impl<T: Real> Arrays<T> {
 /// lie within the arrays, lanes beyond a line's end included, because [`Arrays::new`] takes their lengths from the same plan.
 /// Tests: `cpu/plan/slots.rs` follows every number through a step; `tests/determinism.rs` compares the bits of threads.
 pub struct Shared<'a, T> {
-    pub view: View<T>,
-    books: [Books; 2],
+    pub x: [*mut T; 3],
+    pub v: [*mut T; 3],
+    pub f: [*mut T; 3],
     power: *mut f64,
+    sums: *mut LineSums,
+    surface: *mut SurfaceSum,
+    last_touch: *mut u64,
+    contact: [*mut LineContact; 2],
     surface_lines: usize,
     arrays: PhantomData<&'a mut Arrays<T>>,
 }
@@ -98,22 +101,51 @@ unsafe impl<T: Send> Send for Shared<'_, T> {}
 unsafe impl<T: Send> Sync for Shared<'_, T> {}
 
 impl<T: Real> Shared<'_, T> {
-    /// Sums, with the contact of a step of this number.
-    pub fn books(&self, step: u64) -> &Books {
-        &self.books[(step % 2) as usize]
-    }
-
     /// Sums of viscous power of an item, one a lane.
+    #[inline(always)]
     pub fn power(&self, item: usize) -> *mut f64 {
         self.power.wrapping_add(item * WIDEST)
+    }
+
+    /// Sums of a line.
+    ///
+    /// # Safety
+    /// The caller steps the line.
+    #[inline(always)]
+    #[allow(clippy::mut_from_ref)] // the contract keeps them apart
+    pub unsafe fn sums(&self, line: usize) -> &mut LineSums {
+        // SAFETY: the caller's promise.
+        unsafe { &mut *self.sums.add(line) }
+    }
+
+    /// Sums of a surface node, and its last step in contact.
+    ///
+    /// # Safety
+    /// The caller steps the node's line.
+    #[inline(always)]
+    #[allow(clippy::mut_from_ref)] // the contract keeps them apart
+    pub unsafe fn surface(&self, k: usize) -> (&mut SurfaceSum, &mut u64) {
+        // SAFETY: the caller's promise.
+        unsafe { (&mut *self.surface.add(k), &mut *self.last_touch.add(k)) }
+    }
+
+    /// Contact in step number `step` of line `k` of those that can touch.
+    ///
+    /// # Safety
+    /// The caller steps the line.
+    #[inline(always)]
+    #[allow(clippy::mut_from_ref)] // the contract keeps them apart
+    pub unsafe fn contact(&self, step: u64, k: usize) -> &mut LineContact {
+        // SAFETY: the caller's promise.
+        unsafe { &mut *self.contact[(step % 2) as usize].add(k) }
     }
 
     /// Contact of a step by line.
     ///
     /// # Safety
     /// The caller is the first member, in the phase after the step.
-    pub unsafe fn contact(&self, step: u64) -> &[LineContact] {
+    pub unsafe fn contacts(&self, step: u64) -> &[LineContact] {
         // SAFETY: nobody writes this half until the next meeting.
-        unsafe { std::slice::from_raw_parts(self.books(step).contact, self.surface_lines) }
+        unsafe { std::slice::from_raw_parts(self.contact[(step % 2) as usize], self.surface_lines) }
     }
 }

@@ -3,14 +3,14 @@
 //! Every `unsafe` here is a member of a team that keeps to the contract of [`Shared`]; the comments name the phase.
 
 use super::course::Course;
-use super::elements::{Failed, Power};
+use super::elements::Failed;
 use super::layout::Line;
-use super::nodes::{LineContact, LineSums, node_pass};
+use super::nodes::node_pass;
 use super::plan::Task;
 use super::program::Program;
-use super::reduce::total;
 use super::rim::{Reaction, RimState};
 use super::shared::{Arrays, Shared};
+use super::sums::{LineSums, contact_of, total};
 use super::team::{self, SpinBarrier};
 use crate::engine::{Probe, StepContact};
 use crate::physics::lanes::WIDEST;
@@ -88,9 +88,8 @@ impl<T: Real> Program<T> {
         let mut taken = Taken { rim: course.rim, contact: Vec::new(), touching };
         for (n, step) in course.steps.iter().enumerate() {
             let c = course.early(n);
-            let books = shared.books(c.number);
             // SAFETY: early, for a line of the share.
-            let act = |line| unsafe { node_pass(&self.nodes, &c, line, &shared.view, books, false) };
+            let act = |line| unsafe { node_pass(&self.nodes, &c, line, shared, false) };
             // SAFETY: early.
             failure.note(n, unsafe { self.early(member, shared, step.dtm(), act) });
             meeting.wait();
@@ -105,11 +104,11 @@ impl<T: Real> Program<T> {
                 reaction
             });
             // SAFETY: late, for a line of the share.
-            self.late(member, |line| unsafe { node_pass(&self.nodes, &c, line, &shared.view, books, false) });
+            self.late(member, |line| unsafe { node_pass(&self.nodes, &c, line, shared, false) });
             meeting.wait();
             if member == 0 && course.world.road.is_some() {
                 // SAFETY: after, by the first member.
-                let lines = unsafe { shared.contact(c.number) };
+                let lines = unsafe { shared.contacts(c.number) };
                 taken.contact.push(contact_of(lines, step.dtm(), &mut taken.touching));
             }
         }
@@ -125,9 +124,8 @@ impl<T: Real> Program<T> {
         team::run(self.shares.len(), |member, meeting| {
             let held = &course.rim.q;
             let c = world.probed(number, step, held, held);
-            let books = shared.books(number);
             // SAFETY: early, for a line of the share.
-            let act = |line| unsafe { node_pass(&self.nodes, &c, line, &shared.view, books, true) };
+            let act = |line| unsafe { node_pass(&self.nodes, &c, line, &shared, true) };
             // SAFETY: early.
             unsafe { self.early(member, &shared, 0.5 * step.dt_before, act) };
             meeting.wait();
@@ -137,7 +135,7 @@ impl<T: Real> Program<T> {
             let c = world.probed(number, step, held, &q);
             meeting.wait();
             // SAFETY: late, for a line of the share.
-            self.late(member, |line| unsafe { node_pass(&self.nodes, &c, line, &shared.view, books, true) });
+            self.late(member, |line| unsafe { node_pass(&self.nodes, &c, line, &shared, true) });
         });
         let totals = total(&std::mem::replace(&mut arrays.sums, window));
         let power = std::mem::replace(&mut arrays.power, power);
@@ -178,10 +176,7 @@ impl<T: Real> Program<T> {
                 Task::Forces(item) => {
                     let item = item as usize;
                     // SAFETY: early, for an item of the share.
-                    let bad = unsafe {
-                        let power = Power { sums: shared.power(item), weight };
-                        self.kernel.forces(&self.elements, item, &shared.view, power)
-                    };
+                    let bad = unsafe { self.kernel.forces(&self.elements, item, shared, weight) };
                     failed.0 = [failed.0, bad.0].into_iter().flatten().min();
                 }
                 Task::Move(line) => act(line as usize),
@@ -204,7 +199,7 @@ impl<T: Real> Program<T> {
         for (k, &slot) in self.nodes.lines[line].slots.iter().enumerate() {
             for d in 0..3 {
                 // SAFETY: the caller's promise; `i` is within the line.
-                let part = unsafe { *shared.view.f[d].add(slot + i) };
+                let part = unsafe { *shared.f[d].add(slot + i) };
                 f[d] = if k == 0 { part } else { f[d] + part };
             }
         }
@@ -221,7 +216,7 @@ impl<T: Real> Program<T> {
             // SAFETY: the caller's promise.
             unsafe {
                 let f = self.gather(line, i, shared);
-                (0..3).for_each(|d| *shared.view.x[d].add(start + i) = f[d]);
+                (0..3).for_each(|d| *shared.x[d].add(start + i) = f[d]);
             }
         }
     }
@@ -235,7 +230,7 @@ impl<T: Real> Program<T> {
         for &(line, i) in &self.rim_nodes {
             let n = self.nodes.lines[line].start + i;
             // SAFETY: the rim's lines move late.
-            let (f_int, x) = unsafe { (self.gather(line, i, shared), shared.view.x.map(|x| *x.add(n))) };
+            let (f_int, x) = unsafe { (self.gather(line, i, shared), shared.x.map(|x| *x.add(n))) };
             let weight = |i: usize| (self.nodes.mass.slice()[n] * gravity[i]).to_f64();
             let f: [f64; 3] = std::array::from_fn(|i| weight(i) - f_int[i].to_f64());
             let arm: [f64; 3] = std::array::from_fn(|i| x[i].to_f64() - axle[i]);
@@ -247,23 +242,4 @@ impl<T: Real> Program<T> {
         }
         sum
     }
-}
-
-/// A step's contact from its lines, first to last; `before`: nodes that touched in the step before.
-fn contact_of(lines: &[LineContact], dtm: f64, before: &mut u32) -> StepContact {
-    let mut sum = StepContact { dtm, ..StepContact::default() };
-    let (mut entered, mut switched) = (0, 0);
-    for line in lines {
-        for d in 0..3 {
-            sum.force[d] += line.force[d];
-        }
-        sum.touching += line.touching;
-        entered += line.entered;
-        switched += line.switched;
-    }
-    // Those of the step before that are not among the touching have left.
-    let left = before.saturating_sub(sum.touching - entered);
-    sum.changes = entered + switched + left;
-    *before = sum.touching;
-    sum
 }

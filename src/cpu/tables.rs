@@ -1,14 +1,30 @@
 //! A model's numbers as the passes read them: tables by place, line and lane.
 
-use super::energies::Stored;
-use super::nodes::NO_SURFACE;
+use super::layout::Line;
 use super::plan::Plan;
-use super::rim::RimState;
 use super::state::{Aligned, Field};
 use crate::model::Model;
 use crate::physics::lanes::Level;
 use crate::physics::scalar::Real;
 use std::ops::Range;
+
+/// Number of a node that cannot touch.
+pub const NO_SURFACE: u32 = u32::MAX;
+
+/// Constant data of the node pass.
+pub struct Nodes<T> {
+    pub lines: Vec<Line>,
+    /// By place.
+    pub mass: Aligned<T>,
+    pub inverse_mass: Aligned<T>,
+    /// Number among the surface nodes; this and the arms by [`super::layout::NodeBatch::boundary`] and lane.
+    pub surface_of: Vec<u32>,
+    /// Rim nodes' positions relative to the axle in the reference orientation; zero for others.
+    pub rim_arms: Field<T>,
+    /// One over the area of each surface node [1/m2], as of the last sample; empty unless friction looks at pressure.
+    pub inverse_area: Vec<T>,
+    pub level: Level,
+}
 
 /// Lumped masses [kg] and their inverses, by place.
 pub fn masses<T: Real>(model: &Model, plan: &Plan) -> [Aligned<T>; 2] {
@@ -41,16 +57,6 @@ pub fn boundary<T: Real>(model: &Model, plan: &Plan, surface: &[u32], width: usi
     (surface_of, rim_arms)
 }
 
-pub fn stored(model: &Model, plan: &Plan, level: Level, width: usize) -> Stored {
-    Stored {
-        composition: model.composition(),
-        level,
-        classes: model.classes.clone(),
-        shapes: plan.shapes.clone(),
-        width,
-    }
-}
-
 /// Reference geometry by lanes: these numbers of every class, one after the other.
 pub fn shape_table<T: Real>(model: &Model, plan: &Plan, width: usize, numbers: Range<usize>) -> Aligned<T> {
     let length = numbers.len();
@@ -64,34 +70,6 @@ pub fn shape_table<T: Real>(model: &Model, plan: &Plan, width: usize, numbers: R
         }
     }
     table
-}
-
-/// Line and index in it of every node of the rim, in the mesh's order.
-pub fn rim_nodes(model: &Model, plan: &Plan) -> Vec<(usize, usize)> {
-    let mut at = vec![(0, 0); model.node_count()];
-    for (number, line) in plan.lines.iter().enumerate() {
-        for (i, &n) in line.nodes.iter().enumerate() {
-            at[n as usize] = (number, i);
-        }
-    }
-    model.mesh.rim.iter().map(|&n| at[n as usize]).collect()
-}
-
-pub fn rim_state(model: &Model) -> RimState {
-    let mass = |n: &u32| model.mass[*n as usize];
-    let axle = model.mesh.axle;
-    let [x, y, z] = axle;
-    let rim = &model.mesh.rim;
-    let arm2 = |n: &u32| {
-        let arm = sub64(model.mesh.nodes[*n as usize], axle);
-        arm[0] * arm[0] + arm[2] * arm[2]
-    };
-    RimState {
-        q: [x, y, z, 0.0, 0.0, 0.0],
-        rate: [0.0; 6],
-        node_mass: rim.iter().map(mass).sum(),
-        node_inertia: rim.iter().map(|n| mass(n) * arm2(n)).sum(),
-    }
 }
 
 pub fn sub64(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
