@@ -58,7 +58,7 @@
 //! | element | 4 (its number), 16/w (its batch and shape) |
 //! | row, item | 80 and 128 |
 //! | line | 1728 (window sums by lane, twice while a sample is taken), about 150 |
-//! | surface node | 100, and t where friction looks at pressure; 4 + 3 t a lane of every batch that has one |
+//! | surface node | 116, and t where friction looks at pressure; 4 + 3 t a lane of every batch that has one |
 //! | entry of the table of shapes | w t times the numbers of a class that the element routine reads |
 //!
 //! # Who knows whom
@@ -133,5 +133,22 @@ pub fn engine_at(
     match precision {
         Precision::F64 => Box::new(CpuEngine::<f64>::with_level(model, scene, threads, level)),
         Precision::F32 => Box::new(CpuEngine::<f32>::with_level(model, scene, threads, level)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::layout::NodeBatch;
+    use super::rows::{Batch, Row};
+    use super::sums::LineSums;
+    use crate::engine::SurfaceSum;
+
+    /// The table of bytes above.
+    #[test]
+    fn sizes_are_as_documented() {
+        let sizes = [size_of::<NodeBatch>(), size_of::<Batch>(), size_of::<Row>(), size_of::<LineSums>()];
+        assert_eq!(sizes, [24, 12, 80, 1728]);
+        // With the node's number and its last step in contact.
+        assert_eq!(size_of::<SurfaceSum>() + 4 + 8, 116);
     }
 }

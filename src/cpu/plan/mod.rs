@@ -86,11 +86,60 @@ mod tests {
     use crate::scene::Scene;
     use std::path::Path;
 
+    /// A shipped scene's body with so many elements.
+    pub fn body(scene: &str, elements: [usize; 3]) -> Model {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{scene}.toml"));
+        let elements = format!("body.mesh.elements={elements:?}");
+        Model::new(&Scene::load(&file, &[elements]).unwrap()).unwrap()
+    }
+
+    /// The drawing in `cpu/mod.rs`, with rows long enough to be groups of their own.
+    #[test]
+    fn two_rows_share_a_line_and_one_takes_the_slot_of_the_other() {
+        let model = body("bouncing_block", [40, 1, 2]);
+        let plan = Plan::new(&model, true, 4, 1);
+        let [Item::Rows(first), Item::Rows(second)] = &plan.items[..] else { panic!("{:?}", plan.items) };
+        assert_eq!([first.rows.len(), second.rows.len()], [1, 1]);
+        // Corners 0-1 and 3-2 lie below, 4-5 and 7-6 above.
+        let (below, above) = (&first.rows[0], &second.rows[0]);
+        assert_eq!([below.x[2], below.x[3]], [above.x[0], above.x[1]], "line b");
+        let line = |place: usize| plan.lines.iter().position(|line| line.start == place).unwrap() as u32;
+        let moves = |places: &[usize]| places.iter().map(|x| Task::Move(line(*x))).collect::<Vec<Task>>();
+        let tasks = [
+            vec![Task::Forces(0)],
+            moves(&below.x[..2]),
+            vec![Task::Forces(1)],
+            moves(&above.x[..2]),
+            moves(&above.x[2..]),
+        ];
+        let [share] = &plan.shares[..] else { panic!() };
+        assert_eq!(share.early, tasks.concat());
+        assert!(share.late.is_empty());
+        // Line a's slots go to line b, whose own from the first row are still needed; line c gets new ones.
+        let sorted = |mut slots: [usize; 2]| {
+            slots.sort_unstable();
+            slots
+        };
+        assert_eq!(sorted([below.f[0], below.f[1]]), sorted([above.f[0], above.f[1]]));
+        assert!(above.f[2..].iter().all(|slot| !below.f.contains(slot)));
+        for k in 0..2 {
+            let b = &plan.lines[line(above.x[k]) as usize];
+            assert_eq!(b.slots, [below.f[k + 2], above.f[k]], "first row's, then second row's");
+        }
+        assert_eq!((below.add, above.add), ([false; 4], [false; 4]));
+        // Two threads: line b waits for both, and its slots are nobody else's.
+        let plan = Plan::new(&model, true, 4, 2);
+        assert_eq!(plan.shares.iter().flat_map(|share| &share.late).count(), 2);
+        let mut slots: Vec<usize> = plan.lines.iter().flat_map(|line| line.slots.iter().copied()).collect();
+        slots.sort_unstable();
+        assert!(slots.windows(2).all(|pair| pair[0] < pair[1]), "{slots:?}");
+        assert_eq!(slots.len(), 8);
+    }
+
     /// Batches of one class, however many, share an entry; classes that no batch has to itself have none.
     #[test]
     fn the_table_of_shapes_has_what_batches_need_and_no_more() {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/lat100_straight.toml");
-        let ring = Model::new(&Scene::load(&file, &[]).unwrap()).unwrap();
+        let ring = body("lat100_straight", [44, 4, 5]);
         let entries = |model: &Model| {
             let plan = Plan::new(model, true, 8, 1);
             let batches = plan.items.iter().flat_map(Item::shapes);

@@ -114,10 +114,9 @@ fn lend(
 #[cfg(test)]
 mod tests {
     use super::super::super::layout::{Item, Line};
+    use super::super::tests::body;
     use super::super::{Plan, Task};
     use super::*;
-    use crate::model::Model;
-    use crate::report::bench::wheel;
 
     /// Lanes of the layouts: neither 44 nor 45 nodes fill them.
     const WIDTH: usize = 8;
@@ -130,7 +129,7 @@ mod tests {
     /// Goes through a step of every share in turn and fails where two lines, or two threads, would write the same number,
     /// or a line's forces are gone before its nodes have moved.
     fn check(elements: [usize; 3], threads: usize) -> (usize, usize) {
-        let model = Model::new(&wheel(elements, 1.0)).unwrap();
+        let model = body("lat100_straight", elements);
         let Plan { items, lines, shares, forces: total, .. } = Plan::new(&model, true, WIDTH, threads);
         assert!(items.iter().all(|item| matches!(item, Item::Rows(_))), "a ring is rows alone");
         let mut owner = vec![None; total];
