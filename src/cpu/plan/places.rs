@@ -18,15 +18,16 @@ pub fn items(
     width: usize,
 ) -> Vec<Item> {
     let mut adding = Adding::new(slots);
-    let item = |(joined, group): (Joined, usize)| match joined {
+    let all = groups.items.into_iter().zip(groups.group_of);
+    all.map(|(joined, group)| match joined {
         Joined::Chains(chains) => {
             let rows = chains.iter().map(|laid| row(lines, laid, slots, group, &mut adding)).collect();
             let elements = chains.into_iter().flat_map(|laid| laid.chain.elements).collect();
             Item::Rows(Rows::new(rows, elements, width, |batch| shapes.entry(batch)))
         }
         Joined::Loose(elements) => Item::Loose(Box::new(loose(lines, hexes, elements, slots, group, shapes))),
-    };
-    groups.items.into_iter().zip(groups.group_of).map(item).collect()
+    })
+    .collect()
 }
 
 /// Which slots hold forces of an earlier row already, by line and number.
@@ -85,18 +86,18 @@ fn loose(
 /// The lines with their roles and slots.
 pub fn placed_lines(lines: Lines, roles: Vec<LineRoles>, slots: Slots) -> Vec<Line> {
     let slots = slots.of_lines.into_iter().zip(slots.loose);
-    let line =
-        |((line, roles), (slots, loose)): ((super::lines::NodeLine, LineRoles), (Vec<usize>, bool))| Line {
-            start: line.start,
-            nodes: line.nodes,
-            closed: line.closed,
-            batches: roles.batches,
-            slots,
-            length: line.length,
-            loose,
-            has_rim: roles.has_rim,
-            plain: roles.plain,
-            surface: roles.surface,
-        };
-    lines.lines.into_iter().zip(roles).zip(slots).map(line).collect()
+    let all = lines.lines.into_iter().zip(roles).zip(slots);
+    all.map(|((line, roles), (slots, loose))| Line {
+        start: line.start,
+        nodes: line.nodes,
+        closed: line.closed,
+        batches: roles.batches,
+        slots,
+        length: line.length,
+        loose,
+        has_rim: roles.has_rim,
+        plain: roles.plain,
+        surface: roles.surface,
+    })
+    .collect()
 }
