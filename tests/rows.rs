@@ -1,7 +1,7 @@
 //! Elements in rows, loose elements and threads give the forces of elements taken one by one.
 //!
 //! The CPU engine arranges any mesh in rows of neighbours that load as vectors, and takes what fits into no row lane by
-//! lane (src/cpu/layout.rs). Requirement: whatever the numbering of elements and nodes, the shapes of the elements and
+//! lane (src/cpu/plan/lines.rs). Requirement: whatever the numbering of elements and nodes, the shapes of the elements and
 //! the number of threads, the forces are those of a plain loop over the elements, and the motion does not depend on
 //! the numbering.
 

@@ -2,7 +2,9 @@
 //! the machine can.
 
 use super::layout::Item;
+use super::plan::Plan;
 use crate::engine::EnergyTotals;
+use crate::model::Model;
 use crate::physics::element::{Class, Compose, Composition, Corners, Energy, Formulation, SameShape};
 use crate::physics::lanes::{InLanes, Instructions, Lanes, Level, WIDEST};
 use crate::physics::material::{Hyperelastic, Viscosity};
@@ -21,6 +23,17 @@ pub struct Stored {
 }
 
 impl Stored {
+    /// The elements of a model, of which `plan` has batches of `width`.
+    pub fn new(model: &Model, plan: &Plan, level: Level, width: usize) -> Self {
+        Stored {
+            composition: model.composition(),
+            level,
+            classes: model.classes.clone(),
+            shapes: plan.shapes.clone(),
+            width,
+        }
+    }
+
     /// Energies of the elements of `items` at the positions `x`, by place, one component after the other.
     pub fn totals<T: Real>(&self, items: &[Item], x: [&[T]; 3]) -> EnergyTotals {
         // Energies know nothing of viscosity.

@@ -1,23 +1,25 @@
-use super::build::{inverse_areas, nodes, rim_nodes, rim_state, shape_table, stored, sub64};
-use super::elements::{self, Elements, Kernel};
+//! The CPU engine: a program, the arrays it works on, and the reports of [`Engine`].
+
+use super::course::Course;
 use super::energies::Stored;
-use super::layout::{Item, Layout};
-use super::nodes::{Books, Conditions, LineContact, LineSums, Nodes};
-use super::reduce::total;
+use super::layout::Item;
+use super::plan::Plan;
+use super::program::Program;
 use super::rim::RimState;
-use super::schedule::{Share, Task, shares};
-use super::slots;
-use super::state::{Field, View};
-use super::steps::Pointer;
+use super::shared::Arrays;
+use super::state::Field;
+use super::steps::{Stopped, Taken};
+use super::sums::{LineSums, total};
+use super::world::World;
 use crate::engine::{Engine, EngineInfo, StageSetup, State, Step, StepContact, SurfaceSum, Window};
 use crate::error::{Error, Result};
 use crate::model::mesh::Mesh;
-use crate::model::{Model, frame};
-use crate::physics::lanes::{Level, WIDEST};
+use crate::model::{Model, areas, frame};
+use crate::physics::lanes::Level;
 use crate::physics::rim::Coordinates;
 use crate::physics::scalar::Real;
-use crate::physics::tensor::{Vec3, vec3};
-use crate::scene::{Element, Friction, Road, Scene};
+use crate::physics::tensor::vec3;
+use crate::scene::{Element, Friction, Scene};
 
 /// Elements below which another thread costs more in waiting than it saves: a few microseconds of a step. With one point an
 /// element two threads took 29 us for the wheel's 880 on one machine, where one took 25, and 18 to 22 us on another, both.
@@ -28,46 +30,34 @@ fn elements_a_thread(element: Element) -> usize {
     }
 }
 
+/// As many threads as a model keeps busy, at most one a core.
+fn threads_for(model: &Model) -> usize {
+    let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+    cores.min(model.element_count().div_ceil(elements_a_thread(model.element)))
+}
+
 /// The CPU engine in precision `T`.
 pub struct CpuEngine<T> {
-    pub(super) kernel: Box<dyn Kernel<T>>,
-    pub(super) elements: Elements<T>,
-    pub(super) nodes: Nodes<T>,
-    /// Places of the mesh's nodes.
-    pub(super) place: Vec<u32>,
-    pub(super) stored: Stored,
+    program: Program<T>,
+    arrays: Arrays<T>,
+    world: World<T>,
+    stored: Stored,
+    level: Level,
     /// Whether forces depend on velocities.
-    pub(super) viscous: bool,
-    /// Line of each rim node, and its index in it.
-    pub(super) rim_nodes: Vec<(usize, usize)>,
-    pub(super) shares: Vec<Share>,
-    pub(super) road: Option<Road>,
-    pub(super) friction: Option<Friction>,
-    pub(super) gravity: Vec3<T>,
+    viscous: bool,
     /// For the areas of surface nodes, where friction looks at pressure.
-    pub(super) mesh: Option<Mesh>,
-    pub(super) setup: StageSetup,
-    pub(super) rim: RimState,
-    /// Origin of the engine's frame: positions are kept relative to it.
-    pub(super) frame: [f64; 3],
-    pub(super) grain: f64,
-    pub(super) x: Field<T>,
-    pub(super) v: Field<T>,
-    pub(super) f: Field<T>,
+    mesh: Option<Mesh>,
+    setup: StageSetup,
+    rim: RimState,
+    grain: f64,
     /// Positions and velocities that a step which fails is taken back to.
-    pub(super) before: [Field<T>; 2],
-    /// Viscous work so far of the window [J], by item and lane.
-    pub(super) power: Vec<f64>,
-    pub(super) sums: Vec<LineSums>,
-    pub(super) surface_nodes: Vec<u32>,
-    pub(super) surface: Vec<SurfaceSum>,
-    pub(super) last_touch: Vec<u64>,
-    /// By line that can touch, of even and of odd steps: one is summed up while the other is written.
-    pub(super) contact: [Vec<LineContact>; 2],
-    pub(super) step_contact: Vec<StepContact>,
-    pub(super) touching_before: u32,
-    pub(super) steps: u64,
-    pub(super) window_steps: u64,
+    before: [Field<T>; 2],
+    surface_nodes: Vec<u32>,
+    step_contact: Vec<StepContact>,
+    /// Nodes that touched in the last step.
+    touching: u32,
+    steps: u64,
+    window_steps: u64,
 }
 
 impl<T: Real> CpuEngine<T> {
@@ -79,163 +69,132 @@ impl<T: Real> CpuEngine<T> {
 
     /// The same with chosen instructions.
     pub fn with_level(model: &Model, scene: &Scene, threads: usize, level: Level) -> Self {
-        let threads = match threads {
-            0 => {
-                let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
-                cores.min(model.element_count().div_ceil(elements_a_thread(model.element)))
-            }
-            n => n,
-        };
+        let threads = if threads == 0 { threads_for(model) } else { threads };
         let mesh = &model.mesh;
+        let road = scene.road;
         let width = level.width::<T>();
-        let mut layout = Layout::new(model, scene.road.is_some(), width);
-        let surface_nodes = if scene.road.is_some() { mesh.surface.clone() } else { Vec::new() };
+        let plan = Plan::new(model, road.is_some(), width, threads);
+        let surface_nodes = if road.is_some() { mesh.surface.clone() } else { Vec::new() };
+        let mut arrays = Arrays::new(&plan, surface_nodes.len());
+        let before = [Field::zeros(plan.places), Field::zeros(plan.places)];
         let grain = frame::grain(mesh);
-        let frame = frame::shift(grain, mesh.axle, [0.0; 3], scene.road.as_ref());
-        let shares = shares(&layout, threads);
-        let Layout { items, lines, groups, .. } = &mut layout;
-        let lengths: Vec<usize> = lines.iter().map(|line| line.length(width)).collect();
-        let slots = slots::lay(items, lines, groups, &shares, &lengths);
-        let kernel = elements::compose(model, level);
-        let shapes = shape_table(model, &layout, width, kernel.numbers());
+        let frame = frame::shift(grain, mesh.axle, [0.0; 3], road.as_ref());
+        let stored = Stored::new(model, &plan, level, width);
+        let program = Program::new(model, plan, &surface_nodes, level, width);
+        program.fill(&mut arrays.x, &mesh.nodes, frame);
         let mut engine = CpuEngine {
-            kernel,
-            power: vec![0.0; layout.items.len() * WIDEST],
-            sums: vec![LineSums::default(); layout.lines.len()],
-            contact: [0, 1].map(|_| vec![LineContact::default(); layout.surface_lines]),
-            nodes: Nodes {
-                inverse_area: match (scene.friction, &scene.road) {
-                    (Some(law), Some(road)) if law.needs_area() => {
-                        inverse_areas(mesh, |n| mesh.nodes[n as usize], road)
-                    }
-                    _ => Vec::new(),
-                },
-                ..nodes(model, &layout, &surface_nodes, level, width)
+            program,
+            arrays,
+            world: World {
+                road,
+                friction: scene.friction,
+                gravity: vec3(scene.gravity),
+                mass_damping: 0.0,
+                frame,
             },
-            stored: stored(model, &layout, level, width),
+            stored,
+            level,
             viscous: model.viscosity.is_some(),
-            rim_nodes: rim_nodes(model, &layout),
-            rim: rim_state(model),
-            x: Field::zeros(layout.places),
-            v: Field::zeros(layout.places),
-            f: Field::zeros(slots),
-            before: [Field::zeros(layout.places), Field::zeros(layout.places)],
-            elements: Elements { shapes, items: layout.items },
-            place: layout.place,
-            shares,
-            road: scene.road,
-            friction: scene.friction,
             mesh: scene.friction.filter(Friction::needs_area).map(|_| mesh.clone()),
-            gravity: vec3(scene.gravity),
             setup: StageSetup::default(),
-            frame,
+            rim: RimState::new(model),
             grain,
-            surface: vec![SurfaceSum::default(); surface_nodes.len()],
-            last_touch: vec![0; surface_nodes.len()],
+            before,
             surface_nodes,
             step_contact: Vec::new(),
-            touching_before: 0,
+            touching: 0,
             steps: 0,
             window_steps: 0,
         };
-        let mut x = Field::zeros(layout.places);
-        engine.fill(&mut x, &mesh.nodes, frame);
-        engine.x = x;
+        engine.program.nodes.inverse_area = engine.inverse_areas(|n| mesh.nodes[n as usize]);
         engine
     }
 
-    /// Puts values by node at their places, and on the lanes beyond the end of a line its nodes over again, so that
-    /// no lane computes with anything but a body's numbers.
-    fn fill(&self, field: &mut Field<T>, values: &[[f64; 3]], origin: [f64; 3]) {
-        for line in &self.nodes.lines {
-            for (i, &n) in line.nodes.iter().cycle().take(line.length(self.width())).enumerate() {
-                field.set(line.start + i, sub64(values[n as usize], origin));
-            }
+    /// Takes steps; on failure the state is that of the failing step.
+    fn take(&mut self, steps: &[Step]) -> std::result::Result<Taken, Stopped> {
+        let [x, v] = &mut self.before;
+        x.copy_from(&self.arrays.x);
+        v.copy_from(&self.arrays.v);
+        let course = Course::new(&self.world, &self.setup, self.steps, steps, self.rim);
+        let taken = self.program.take(&mut self.arrays, &course, self.touching);
+        if let Err(stopped) = &taken {
+            // Some nodes of the failing step have moved already: take the steps before it again.
+            let [x, v] = &self.before;
+            self.arrays.x.copy_from(x);
+            self.arrays.v.copy_from(v);
+            self.program.clear_loose(&mut self.arrays.f);
+            let again = self.program.take(&mut self.arrays, &course.cut(stopped.step), self.touching);
+            self.rim = again.expect("these steps have been taken before").rim;
         }
-    }
-
-    fn width(&self) -> usize {
-        self.nodes.level.width::<T>()
-    }
-
-    pub(super) fn view(&mut self) -> View<T> {
-        View { x: self.x.pointers(), v: self.v.pointers(), f: self.f.pointers() }
-    }
-
-    pub(super) fn books(&mut self) -> [Books; 2] {
-        let [even, odd] = self.contact.each_mut().map(|c| c.as_mut_ptr());
-        let mut books = |contact| Books {
-            surface: self.surface.as_mut_ptr(),
-            last_touch: self.last_touch.as_mut_ptr(),
-            sums: self.sums.as_mut_ptr(),
-            contact,
-        };
-        [books(even), books(odd)]
-    }
-
-    /// Clears the slots that are added to lane by lane.
-    fn clear_loose(&mut self) {
-        let width = self.width();
-        for line in self.nodes.lines.iter().filter(|l| l.loose) {
-            let length = line.length(width);
-            for &slot in &line.slots {
-                for d in 0..3 {
-                    self.f.component_mut(d)[slot..slot + length].fill(T::zero());
-                }
-            }
-        }
-    }
-
-    pub(super) fn local(&self, q: &Coordinates) -> [f64; 3] {
-        std::array::from_fn(|d| q[d] - self.frame[d])
+        taken
     }
 
     /// Lets the frame follow the axle, when single precision would otherwise run out of digits.
     fn follow(&mut self) {
-        if T::EPSILON < 1e-10 || self.rim_nodes.is_empty() {
+        if T::EPSILON < 1e-10 || self.program.rim_nodes.is_empty() {
             return;
         }
         let axle = [self.rim.q[0], self.rim.q[1], self.rim.q[2]];
-        let shift = frame::shift(self.grain, axle, self.frame, self.road.as_ref());
+        let frame = &mut self.world.frame;
+        let shift = frame::shift(self.grain, axle, *frame, self.world.road.as_ref());
         for d in (0..3).filter(|&d| shift[d] != 0.0) {
-            self.frame[d] += shift[d];
-            self.x.component_mut(d).iter_mut().for_each(|x| *x -= T::from_f64(shift[d]));
+            frame[d] += shift[d];
+            self.arrays.x.component_mut(d).iter_mut().for_each(|x| *x -= T::from_f64(shift[d]));
         }
     }
 
-    /// Areas of the surface nodes as they are now.
-    fn refresh_areas(&mut self) {
-        if let (Some(mesh), Some(road)) = (&self.mesh, &self.road) {
-            self.nodes.inverse_area = inverse_areas(mesh, |n| self.absolute(n as usize), road);
-        }
+    /// One over the areas of the surface nodes [1/m2] with nodes at these positions; none unless friction looks at pressure.
+    fn inverse_areas(&self, x: impl Fn(u32) -> [f64; 3]) -> Vec<T> {
+        let (Some(mesh), Some(road)) = (&self.mesh, &self.world.road) else { return Vec::new() };
+        areas::inverse_areas(mesh, x, road).into_iter().map(T::from_f64).collect()
     }
 
+    /// Position of a node [m].
     fn absolute(&self, n: usize) -> [f64; 3] {
-        let x = self.x.get(self.place[n] as usize);
-        std::array::from_fn(|d| x[d] + self.frame[d])
+        let x = self.arrays.x.get(self.program.place[n] as usize);
+        std::array::from_fn(|d| x[d] + self.world.frame[d])
+    }
+
+    /// Half-step velocity of a node [m/s].
+    fn velocity(&self, n: usize) -> [f64; 3] {
+        self.arrays.v.get(self.program.place[n] as usize)
     }
 
     fn failure(&self, element: usize, time: f64) -> Error {
-        let finite = |n: &u32| self.x.get(*n as usize).iter().all(|c| c.is_finite());
+        let finite = |n: &u32| self.arrays.x.get(*n as usize).iter().all(|c| c.is_finite());
         let step = self.steps;
         let corners = |item: &Item| {
             let k = item.elements().iter().position(|e| *e as usize == element)?;
             Some(item.corners()[k])
         };
-        let corners = self.elements.items.iter().find_map(corners).expect("every element is in an item");
+        let corners =
+            self.program.elements.items.iter().find_map(corners).expect("every element is in an item");
         match corners.iter().all(finite) {
             true => Error::Inverted { step, time, element },
             false => Error::NotFinite { step, time, element },
         }
     }
-}
 
-impl<T: Real> CpuEngine<T> {
     /// sum 1/2 m v^2 [J].
     fn kinetic(&self) -> f64 {
-        let square = |p: usize| self.v.get(p).iter().map(|c| c * c).sum::<f64>();
-        let one = |p: &u32| 0.5 * self.nodes.mass.slice()[*p as usize].to_f64() * square(*p as usize);
-        self.place.iter().map(one).sum()
+        let square = |p: usize| self.arrays.v.get(p).iter().map(|c| c * c).sum::<f64>();
+        let mass = self.program.nodes.mass.slice();
+        self.program.place.iter().map(|p| 0.5 * mass[*p as usize].to_f64() * square(*p as usize)).sum()
+    }
+
+    /// The surface nodes' sums of the window, which begin again.
+    fn take_surface(&mut self) -> Vec<SurfaceSum> {
+        let fresh = vec![SurfaceSum::default(); self.surface_nodes.len()];
+        let mut surface = std::mem::replace(&mut self.arrays.surface, fresh);
+        for (k, (sum, &n)) in surface.iter_mut().zip(&self.surface_nodes).enumerate() {
+            sum.x = self.absolute(n as usize);
+            sum.v = self.velocity(n as usize);
+            sum.touches = self.steps > 0 && self.arrays.last_touch[k] == self.steps;
+            sum.sticks &= sum.touches;
+            // The next step's changes are told from this one's states.
+            self.arrays.surface[k].sticks = sum.sticks;
+        }
+        surface
     }
 }
 
@@ -244,75 +203,50 @@ impl<T: Real> Engine for CpuEngine<T> {
         EngineInfo {
             engine: "cpu".into(),
             precision: if T::EPSILON < 1e-10 { "f64" } else { "f32" }.into(),
-            device: format!("{} processor, {:?} lanes", std::env::consts::ARCH, self.nodes.level),
+            device: format!("{} processor, {:?} lanes", std::env::consts::ARCH, self.level),
             driver: String::new(),
-            threads: self.shares.len(),
+            threads: self.program.shares.len(),
         }
     }
 
     fn begin_stage(&mut self, setup: &StageSetup) -> Result<()> {
         // The rates stay: a component that is let go keeps the speed it was driven with.
         self.setup = *setup;
+        self.world.mass_damping = setup.mass_damping;
         Ok(())
     }
 
     fn advance(&mut self, steps: &[Step]) -> Result<()> {
-        let free_rim = RimState::is_free(&self.setup);
-        // With a free rim the conditions depend on the state and are made on the way.
-        let plan: Vec<Conditions<T>> = if free_rim {
-            Vec::new()
-        } else {
-            let starts = std::iter::once(&self.rim.q).chain(steps.iter().map(|s| &s.rim));
-            let numbered = (self.steps..).zip(steps).zip(starts);
-            numbered.map(|((n, s), before)| self.conditions(n, s, before, &s.rim, false)).collect()
-        };
-        let [x, v] = &mut self.before;
-        x.copy_from(&self.x);
-        v.copy_from(&self.v);
-        let rim = self.rim;
-        if let Some((taken, element)) = self.run_steps(steps, &plan, free_rim) {
-            // Some nodes of the failing step have moved already: take the steps before it again.
-            let [x, v] = &self.before;
-            self.x.copy_from(x);
-            self.v.copy_from(v);
-            self.rim = rim;
-            self.clear_loose();
-            self.run_steps(&steps[..taken], &plan, free_rim);
-            self.steps += taken as u64;
-            return Err(self.failure(element, steps[taken].time));
+        match self.take(steps) {
+            Ok(taken) => {
+                self.rim = taken.rim;
+                self.step_contact.extend(taken.contact);
+                self.touching = taken.touching;
+                self.steps += steps.len() as u64;
+                self.window_steps += steps.len() as u64;
+                Ok(())
+            }
+            Err(Stopped { step, element }) => {
+                self.steps += step as u64;
+                Err(self.failure(element, steps[step].time))
+            }
         }
-        self.steps += steps.len() as u64;
-        self.window_steps += steps.len() as u64;
-        if let (Some(last), false) = (steps.last(), free_rim) {
-            let before = steps.iter().nth_back(1).map_or(self.rim.q, |s| s.rim);
-            self.rim.rate = std::array::from_fn(|c| (last.rim[c] - before[c]) / last.dt);
-            self.rim.q = last.rim;
-        }
-        Ok(())
     }
 
     fn sample(&mut self, next: &Step) -> Result<Window> {
-        let viscous = -self.power.iter().sum::<f64>();
-        self.power.fill(0.0);
-        let committed = total(&self.sums);
-        self.sums.fill(LineSums::default());
+        let viscous = -self.arrays.power.iter().sum::<f64>();
+        self.arrays.power.fill(0.0);
+        let committed = total(&self.arrays.sums);
+        self.arrays.sums.fill(LineSums::default());
         let mut works = committed.works;
         works.viscous = viscous;
         works.internal -= viscous;
-        let fresh = vec![SurfaceSum::default(); self.surface_nodes.len()];
-        let mut surface = std::mem::replace(&mut self.surface, fresh);
-        for (k, (sum, &n)) in surface.iter_mut().zip(&self.surface_nodes).enumerate() {
-            sum.x = self.absolute(n as usize);
-            sum.v = self.v.get(self.place[n as usize] as usize);
-            sum.touches = self.steps > 0 && self.last_touch[k] == self.steps;
-            sum.sticks &= sum.touches;
-            // The next step's changes are told from this one's states.
-            self.surface[k].sticks = sum.sticks;
-        }
-        let x = [0, 1, 2].map(|d| self.x.component(d));
-        let energies = self.stored.totals(&self.elements.items, x);
+        let surface = self.take_surface();
+        let x = [0, 1, 2].map(|d| self.arrays.x.component(d));
+        let energies = self.stored.totals(&self.program.elements.items, x);
         let kinetic = self.kinetic();
-        let probe = self.probe(next);
+        let course = Course::new(&self.world, &self.setup, self.steps, std::slice::from_ref(next), self.rim);
+        let probe = self.program.probe(&mut self.arrays, &course);
         let window = Window {
             steps: std::mem::take(&mut self.window_steps),
             works,
@@ -329,22 +263,20 @@ impl<T: Real> Engine for CpuEngine<T> {
             min_jacobian: energies.min_jacobian,
         };
         self.follow();
-        self.refresh_areas();
+        self.program.nodes.inverse_area = self.inverse_areas(|n| self.absolute(n as usize));
         Ok(window)
     }
 
     fn state(&mut self) -> Result<State> {
-        let nodes = 0..self.place.len();
+        let nodes = 0..self.program.place.len();
         Ok(State {
             x: nodes.clone().map(|n| self.absolute(n)).collect(),
-            v: nodes.map(|n| self.v.get(self.place[n] as usize)).collect(),
+            v: nodes.map(|n| self.velocity(n)).collect(),
         })
     }
 
     fn set_velocity(&mut self, v: &[[f64; 3]], rim_rate: &Coordinates) -> Result<()> {
-        let mut field = self.v.clone();
-        self.fill(&mut field, v, [0.0; 3]);
-        self.v = field;
+        self.program.fill(&mut self.arrays.v, v, [0.0; 3]);
         for component in 0..6 {
             if self.setup.free[component].is_some() {
                 self.rim.rate[component] = rim_rate[component];
@@ -354,55 +286,27 @@ impl<T: Real> Engine for CpuEngine<T> {
     }
 
     fn set_state(&mut self, state: &State, rim: &Coordinates, rim_rate: &Coordinates) -> Result<()> {
-        let mut field = self.x.clone();
-        self.fill(&mut field, &state.x, self.frame);
-        self.x = field;
+        self.program.fill(&mut self.arrays.x, &state.x, self.world.frame);
         self.rim.q = *rim;
         self.follow();
         self.set_velocity(&state.v, rim_rate)
     }
 
     fn force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {
-        let mut at = self.x.clone();
-        self.fill(&mut at, x, self.frame);
-        let mut rate = self.viscous.then(|| self.v.clone());
-        if let Some(rate) = &mut rate {
-            self.fill(rate, v, [0.0; 3]);
+        let [x_before, v_before] = &mut self.before;
+        x_before.copy_from(&self.arrays.x);
+        self.program.fill(&mut self.arrays.x, x, self.world.frame);
+        v_before.copy_from(&self.arrays.v);
+        if self.viscous {
+            self.program.fill(&mut self.arrays.v, v, [0.0; 3]);
         }
-        let rate = rate.as_mut().unwrap_or(&mut self.v).pointers();
-        let view = View { x: at.pointers(), v: rate, f: self.f.pointers() };
-        let mut power = vec![0.0; self.power.len()];
-        let power = Pointer(power.as_mut_ptr());
-        let engine = &*self;
-        let mut forces = vec![[0.0; 3]; self.place.len()];
-        let out = Pointer(forces.as_mut_ptr());
-        let gather = |line: u32| {
-            let line = &engine.nodes.lines[line as usize];
-            for (i, &n) in line.nodes.iter().enumerate() {
-                // SAFETY: the line's forces are complete, and its nodes are no other's.
-                unsafe { *out.get().add(n as usize) = Self::gather(line, i, &view).map(Real::to_f64) };
-            }
-        };
-        let work = |member: usize| {
-            for task in &engine.shares[member].early {
-                match *task {
-                    // SAFETY: shares do not overlap; positions are only read.
-                    Task::Forces(item) => unsafe {
-                        engine.forces(item as usize, &view, power.get(), 0.0);
-                    },
-                    Task::Move(line) => gather(line),
-                }
-            }
-        };
-        std::thread::scope(|scope| {
-            for member in 1..engine.shares.len() {
-                let work = &work;
-                scope.spawn(move || work(member));
-            }
-            work(0);
-        });
-        engine.shares.iter().flat_map(|share| &share.late).for_each(|line| gather(*line));
-        self.clear_loose();
+        let power = self.arrays.power.clone();
+        self.program.internal_forces(&mut self.arrays);
+        self.arrays.power = power;
+        let forces = self.program.place.iter().map(|p| self.arrays.x.get(*p as usize)).collect();
+        std::mem::swap(&mut self.arrays.x, x_before);
+        std::mem::swap(&mut self.arrays.v, v_before);
+        self.program.clear_loose(&mut self.arrays.f);
         Ok(forces)
     }
 }

@@ -1,6 +1,7 @@
 //! The rim's own equation of motion, where a component is free.
 
 use crate::engine::{StageSetup, Step};
+use crate::model::Model;
 use crate::physics::rim::{self, Coordinates, SPIN};
 use glam::DVec3;
 
@@ -23,6 +24,24 @@ pub struct Reaction {
 }
 
 impl RimState {
+    /// At rest with the axle where the mesh has it.
+    pub fn new(model: &Model) -> Self {
+        let mesh = &model.mesh;
+        let [x, y, z] = mesh.axle;
+        let mass = |n: &u32| model.mass[*n as usize];
+        let arm2 = |n: &u32| {
+            let node = mesh.nodes[*n as usize];
+            let [x, _, z]: [f64; 3] = std::array::from_fn(|d| node[d] - mesh.axle[d]);
+            x * x + z * z
+        };
+        RimState {
+            q: [x, y, z, 0.0, 0.0, 0.0],
+            rate: [0.0; 6],
+            node_mass: mesh.rim.iter().map(mass).sum(),
+            node_inertia: mesh.rim.iter().map(|n| mass(n) * arm2(n)).sum(),
+        }
+    }
+
     pub fn is_free(setup: &StageSetup) -> bool {
         setup.free.iter().any(Option::is_some)
     }

@@ -1,6 +1,7 @@
 //! Rows of elements, and how batches of lanes go along them.
 
 use crate::model::chains::{BACK, FRONT};
+use crate::physics::lanes::first;
 
 /// A chain of elements on four node lines.
 #[derive(Debug, Clone)]
@@ -12,8 +13,6 @@ pub struct Row {
     pub f: [usize; 4],
     /// Whether the slot holds forces of an earlier row already.
     pub add: [bool; 4],
-    /// Numbers of these lines.
-    pub lines: [usize; 4],
 }
 
 impl Row {
@@ -65,6 +64,12 @@ impl Batch {
     pub fn next(&self) -> usize {
         self.next as usize
     }
+
+    /// A mask of the lanes on the next row.
+    #[inline(always)]
+    pub fn next_lanes(&self) -> u32 {
+        first(self.lanes() + self.next()) & !first(self.lanes())
+    }
 }
 
 /// Rows that batches run through from the first element to the last: the lanes that one would leave empty at its end take
@@ -80,6 +85,26 @@ pub struct Rows {
 }
 
 impl Rows {
+    /// The row of a batch, without a look at bounds.
+    ///
+    /// # Safety
+    /// The batch is one of these rows'.
+    #[inline(always)]
+    pub unsafe fn row_of(&self, batch: &Batch) -> &Row {
+        // SAFETY: `Rows::new` makes batches of its own rows.
+        unsafe { self.rows.get_unchecked(batch.row()) }
+    }
+
+    /// The row that a batch goes on into.
+    ///
+    /// # Safety
+    /// The batch is one of these rows', and has lanes on the next row.
+    #[inline(always)]
+    pub unsafe fn row_after(&self, batch: &Batch) -> &Row {
+        // SAFETY: `Rows::new` lets batches go on where there is a row.
+        unsafe { self.rows.get_unchecked(batch.row() + 1) }
+    }
+
     /// Rows in batches of `width` lanes. Only the last row may be shorter than a batch: none meets more than two.
     pub fn new(rows: Vec<Row>, elements: Vec<u32>, width: usize, shape: impl FnMut(&[u32]) -> u32) -> Rows {
         let mut batches = Vec::new();
@@ -127,7 +152,7 @@ mod tests {
     use super::*;
 
     fn row(count: usize) -> Row {
-        Row { count, closed: true, x: [0; 4], f: [0; 4], add: [false; 4], lines: [0; 4] }
+        Row { count, closed: true, x: [0; 4], f: [0; 4], add: [false; 4] }
     }
 
     #[test]

@@ -82,15 +82,3 @@ impl<T: Real> Field<T> {
         [0, 1, 2].map(|d| unsafe { all.add(d * self.stride) })
     }
 }
-
-/// Raw access for the threads of a step. Each writes the forces and the nodes of its own share; barriers between.
-#[derive(Debug, Clone, Copy)]
-pub struct View<T> {
-    pub x: [*mut T; 3],
-    pub v: [*mut T; 3],
-    pub f: [*mut T; 3],
-}
-
-// SAFETY: the passes that dereference these pointers are unsafe functions whose callers keep threads apart.
-unsafe impl<T> Send for View<T> {}
-unsafe impl<T> Sync for View<T> {}

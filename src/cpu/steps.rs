@@ -1,223 +1,144 @@
-//! Steps: forces and nodes by threads that meet, and the step that is only looked at.
+//! Steps: a team of threads goes through the tasks of a program, each through those of its own share.
+//!
+//! Every `unsafe` here is a member of a team that keeps to the contract of [`Shared`]; the comments name the phase.
 
-use super::elements::{Failed, Power};
-use super::engine::CpuEngine;
+use super::course::Course;
+use super::elements::Failed;
 use super::layout::Line;
-use super::nodes::{Books, Conditions, LineContact, LineSums, node_pass};
-use super::reduce::total;
+use super::nodes::node_pass;
+use super::plan::Task;
+use super::program::Program;
 use super::rim::{Reaction, RimState};
-use super::schedule::Task;
-use super::state::View;
-use super::team::SpinBarrier;
-use crate::engine::{Probe, Step, StepContact};
+use super::shared::{Arrays, Shared};
+use super::sums::{LineSums, contact_of, total};
+use super::team::{self, SpinBarrier};
+use crate::engine::{Probe, StepContact};
 use crate::physics::lanes::WIDEST;
-use crate::physics::node::{Loads, Prediction, StepSize};
-use crate::physics::rim::{self, Coordinates};
 use crate::physics::scalar::Real;
-use crate::physics::tensor::{Vec3, vec3};
+use crate::physics::tensor::Vec3;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-impl<T: Real> CpuEngine<T> {
-    /// Conditions of step number `number`, which takes the rim from coordinates `before` to `q`. `probe`: works over
-    /// the half step before.
-    pub(super) fn conditions(
-        &self,
-        number: u64,
-        step: &Step,
-        before: &Coordinates,
-        q: &Coordinates,
-        probe: bool,
-    ) -> Conditions<T> {
-        let s = T::from_f64;
-        let (start, end) = (rim::rotation(before), rim::rotation(q));
-        let weights = if probe { [0.5 * step.dt_before, 0.0] } else { [0.5 * step.dtm(); 2] };
-        let size = StepSize { dt: s(step.dt), dtm: s(step.dtm()) };
-        let loads = Loads { gravity: self.gravity, alpha: s(self.setup.mass_damping) };
-        Conditions {
-            step: size,
-            loads,
-            prediction: Prediction::new(&loads, size),
-            road: self.road.map(|road| road.seen_from(self.frame)),
-            road_moves: self.road.is_some_and(|road| road.moves()),
-            friction: self.friction,
-            axle: vec3(self.local(q)),
-            axle_velocity: vec3(std::array::from_fn(|d| (q[d] - before[d]) / step.dt)),
-            rotation: end.to_cols_array_2d().map(vec3),
-            rotation_rate: ((end - start) * (1.0 / step.dt)).to_cols_array_2d().map(vec3),
-            axle_before: vec3(self.local(before)),
-            weights: weights.map(s),
-            has_gravity: self.gravity.iter().any(|g| *g != T::zero()),
-            has_damping: self.setup.mass_damping != 0.0,
-            number,
+/// What the steps have done beside moving nodes.
+#[derive(Debug, Clone)]
+pub struct Taken {
+    pub rim: RimState,
+    /// Contact of every step; empty without a road.
+    pub contact: Vec<StepContact>,
+    /// Nodes that touch in the last step.
+    pub touching: u32,
+}
+
+/// Where steps end: det F of an element is not positive at the start of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stopped {
+    /// Its number among the steps to take.
+    pub step: usize,
+    /// The lowest such element.
+    pub element: usize,
+}
+
+/// The lowest element that failed in a step, as all members learn when they meet.
+struct Failure {
+    element: AtomicUsize,
+    step: AtomicUsize,
+}
+
+impl Failure {
+    const NONE: usize = usize::MAX;
+
+    fn none() -> Self {
+        Failure { element: AtomicUsize::new(Self::NONE), step: AtomicUsize::new(Self::NONE) }
+    }
+
+    fn note(&self, step: usize, failed: Failed) {
+        if let Some(element) = failed.0 {
+            self.element.fetch_min(element, Ordering::Relaxed);
+            self.step.store(step, Ordering::Relaxed);
         }
     }
 
-    /// Takes the steps with all threads; `Some((step, element))` where an element failed.
-    pub(super) fn run_steps(
-        &mut self,
-        steps: &[Step],
-        plan: &[Conditions<T>],
-        free_rim: bool,
-    ) -> Option<(usize, usize)> {
-        let (view, books) = (self.view(), self.books());
-        let power = Pointer(self.power.as_mut_ptr());
-        let mut step_contact = std::mem::take(&mut self.step_contact);
-        let mut touching_before = self.touching_before;
-        let mut rim = self.rim;
-        let shared_rim = Pointer(&raw mut rim);
-        let host = Pointer(&raw mut step_contact);
-        let host_touching = Pointer(&raw mut touching_before);
-        let failed = AtomicUsize::new(usize::MAX);
-        let failed_step = AtomicUsize::new(usize::MAX);
-        let members = self.shares.len();
-        let barrier = SpinBarrier::new(members);
-        let (first, engine) = (self.steps, &*self);
-        let held = self.rim.q;
-        let work = |member: usize| {
-            // SAFETY: shares do not overlap, barriers stand between what one writes and another reads, and the rim's
-            // state and the host's records are written by member 0 only.
-            for (n, step) in steps.iter().enumerate() {
-                let books = &books[n % 2];
-                // Lines that move early have no rim nodes: the motion of a free rim is nothing to them.
-                let without_rim;
-                let early = match plan.get(n) {
-                    Some(conditions) => conditions,
-                    None => {
-                        without_rim = engine.conditions(first + n as u64, step, &held, &held, false);
-                        &without_rim
-                    }
-                };
-                let bad =
-                    unsafe { engine.early(member, early, &view, books, power.get(), step.dtm(), false) };
-                if let Some(element) = bad.0 {
-                    failed.fetch_min(element, Ordering::Relaxed);
-                    failed_step.store(n, Ordering::Relaxed);
-                }
-                barrier.wait();
-                if failed.load(Ordering::Relaxed) != usize::MAX {
-                    return;
-                }
-                let own;
-                let conditions = if free_rim {
-                    let state = unsafe { *shared_rim.get() };
-                    let reaction = unsafe { engine.reaction(&view, engine.local(&state.q)) };
-                    let (q, rate) = state.advanced(&engine.setup, step, &reaction);
-                    own = engine.conditions(first + n as u64, step, &state.q, &q, false);
-                    barrier.wait();
-                    if member == 0 {
-                        unsafe { *shared_rim.get() = RimState { q, rate, ..state } };
-                    }
-                    &own
-                } else {
-                    &plan[n]
-                };
-                unsafe { engine.late(member, conditions, &view, books, false) };
-                barrier.wait();
-                if member == 0 && engine.road.is_some() {
-                    let (host, touching) = unsafe { (&mut *host.get(), &mut *host_touching.get()) };
-                    let lines = unsafe { std::slice::from_raw_parts(books.contact, engine.contact[0].len()) };
-                    host.push(contact_of(lines, step.dtm(), touching));
-                }
-            }
-        };
-        std::thread::scope(|scope| {
-            for member in 1..members {
-                let work = &work;
-                scope.spawn(move || work(member));
-            }
-            work(0);
+    fn stopped(&self) -> Option<Stopped> {
+        let element = self.element.load(Ordering::Relaxed);
+        (element != Self::NONE).then(|| Stopped { step: self.step.load(Ordering::Relaxed), element })
+    }
+}
+
+impl<T: Real> Program<T> {
+    /// Takes the steps of `course` with all threads; `touching`: nodes that touched in the step before. Where it stops,
+    /// some nodes of the step that failed have moved already.
+    pub fn take(&self, arrays: &mut Arrays<T>, course: &Course<T>, touching: u32) -> Result<Taken, Stopped> {
+        let shared = arrays.shared();
+        let failure = Failure::none();
+        let taken = team::run(self.shares.len(), |member, meeting| {
+            self.take_as(member, meeting, &shared, course, touching, &failure)
         });
-        self.rim = rim;
-        self.step_contact = step_contact;
-        self.touching_before = touching_before;
-        let element = failed.load(Ordering::Relaxed);
-        (element != usize::MAX).then(|| (failed_step.load(Ordering::Relaxed), element))
+        failure.stopped().map_or(Ok(taken), Err)
     }
 
-    /// A member's forces, and the nodes that move before the threads meet: none of the rim.
-    ///
-    /// # Safety
-    /// No other thread works on this share.
-    #[allow(clippy::too_many_arguments)] // what a step needs
-    unsafe fn early(
+    /// The steps of one member.
+    fn take_as(
         &self,
         member: usize,
-        conditions: &Conditions<T>,
-        view: &View<T>,
-        books: &Books,
-        power: *mut f64,
-        weight: f64,
-        probe: bool,
-    ) -> Failed {
-        let mut failed = Failed(None);
-        for task in &self.shares[member].early {
-            match *task {
-                Task::Forces(item) => unsafe {
-                    let bad = self.forces(item as usize, view, power, weight);
-                    failed.0 = [failed.0, bad.0].into_iter().flatten().min();
-                },
-                Task::Move(line) => unsafe {
-                    node_pass(&self.nodes, conditions, line as usize, view, books, probe);
-                },
+        meeting: &SpinBarrier,
+        shared: &Shared<T>,
+        course: &Course<T>,
+        touching: u32,
+        failure: &Failure,
+    ) -> Taken {
+        let mut taken = Taken { rim: course.rim, contact: Vec::new(), touching };
+        for (n, step) in course.steps.iter().enumerate() {
+            let c = course.early(n);
+            // SAFETY: early, for a line of the share.
+            let act = |line| unsafe { node_pass(&self.nodes, &c, line, shared, false) };
+            // SAFETY: early.
+            failure.note(n, unsafe { self.early(member, shared, step.dtm(), act) });
+            meeting.wait();
+            if failure.stopped().is_some() {
+                return taken;
+            }
+            let c = course.late(n, &mut taken.rim, |rim| {
+                // SAFETY: between. The rim's lines move late, and nobody is late before all have read.
+                let reaction =
+                    unsafe { self.reaction(shared, course.world.gravity, course.world.local(&rim.q)) };
+                meeting.wait();
+                reaction
+            });
+            // SAFETY: late, for a line of the share.
+            self.late(member, |line| unsafe { node_pass(&self.nodes, &c, line, shared, false) });
+            meeting.wait();
+            if member == 0 && course.world.road.is_some() {
+                // SAFETY: after, by the first member.
+                let lines = unsafe { shared.contacts(c.number) };
+                taken.contact.push(contact_of(lines, step.dtm(), &mut taken.touching));
             }
         }
-        failed
+        taken
     }
 
-    /// Forces of an item.
-    ///
-    /// # Safety
-    /// As [`Kernel::forces`].
-    pub(super) unsafe fn forces(&self, item: usize, view: &View<T>, power: *mut f64, weight: f64) -> Failed {
-        unsafe {
-            let power = Power { sums: power.add(item * WIDEST), weight };
-            self.kernel.forces(&self.elements, item, view, power)
-        }
-    }
-
-    /// The nodes of a member that wait for all forces.
-    ///
-    /// # Safety
-    /// No other thread works on this share.
-    unsafe fn late(&self, member: usize, c: &Conditions<T>, view: &View<T>, books: &Books, probe: bool) {
-        for &line in &self.shares[member].late {
-            unsafe { node_pass(&self.nodes, c, line as usize, view, books, probe) };
-        }
-    }
-
-    /// The step after the window, not taken.
-    pub(super) fn probe(&mut self, next: &Step) -> Probe {
-        let fresh = vec![LineSums::default(); self.sums.len()];
-        let window = std::mem::replace(&mut self.sums, fresh);
-        let mut power = vec![0.0; self.power.len()];
-        let (view, [books, _]) = (self.view(), self.books());
-        let shared_power = Pointer(power.as_mut_ptr());
-        let members = self.shares.len();
-        let barrier = SpinBarrier::new(members);
-        let engine = &*self;
-        let work = |member: usize| {
-            // SAFETY: as in `run_steps`; nothing but forces and sums is written.
-            unsafe {
-                let weight = 0.5 * next.dt_before;
-                let held = &engine.rim.q;
-                let without_rim = engine.conditions(engine.steps, next, held, held, true);
-                engine.early(member, &without_rim, &view, &books, shared_power.get(), weight, true);
-                barrier.wait();
-                let reaction = engine.reaction(&view, engine.local(&engine.rim.q));
-                let (q, _) = engine.rim.advanced(&engine.setup, next, &reaction);
-                let c = engine.conditions(engine.steps, next, &engine.rim.q, &q, true);
-                barrier.wait();
-                engine.late(member, &c, &view, &books, true);
-            }
-        };
-        std::thread::scope(|scope| {
-            for member in 1..members {
-                let work = &work;
-                scope.spawn(move || work(member));
-            }
-            work(0);
+    /// The first step of `course`, not taken: nothing but forces and sums is written, and sums of before are kept.
+    pub fn probe(&self, arrays: &mut Arrays<T>, course: &Course<T>) -> Probe {
+        let window = std::mem::replace(&mut arrays.sums, vec![LineSums::default(); self.nodes.lines.len()]);
+        let power = std::mem::replace(&mut arrays.power, vec![0.0; self.elements.items.len() * WIDEST]);
+        let shared = arrays.shared();
+        let (world, number, step) = (course.world, course.first, &course.steps[0]);
+        team::run(self.shares.len(), |member, meeting| {
+            let held = &course.rim.q;
+            let c = world.probed(number, step, held, held);
+            // SAFETY: early, for a line of the share.
+            let act = |line| unsafe { node_pass(&self.nodes, &c, line, &shared, true) };
+            // SAFETY: early.
+            unsafe { self.early(member, &shared, 0.5 * step.dt_before, act) };
+            meeting.wait();
+            // SAFETY: between.
+            let reaction = unsafe { self.reaction(&shared, world.gravity, world.local(held)) };
+            let (q, _) = course.rim.advanced(course.setup, step, &reaction);
+            let c = world.probed(number, step, held, &q);
+            meeting.wait();
+            // SAFETY: late, for a line of the share.
+            self.late(member, |line| unsafe { node_pass(&self.nodes, &c, line, &shared, true) });
         });
-        let totals = total(&std::mem::replace(&mut self.sums, window));
+        let totals = total(&std::mem::replace(&mut arrays.sums, window));
+        let power = std::mem::replace(&mut arrays.power, power);
         let mut half_works = totals.works;
         half_works.viscous = -power.iter().sum::<f64>();
         half_works.internal -= half_works.viscous;
@@ -229,33 +150,90 @@ impl<T: Real> CpuEngine<T> {
         }
     }
 
-    /// Internal force of node `i` of a line: its slots, first to last.
+    /// Puts the internal force on every node in the place of its position.
+    pub fn internal_forces(&self, arrays: &mut Arrays<T>) {
+        let shared = arrays.shared();
+        team::run(self.shares.len(), |member, meeting| {
+            // SAFETY: early, for a line of the share; in place of a step.
+            let act = |line| unsafe { self.gather_line(line, &shared) };
+            // SAFETY: early.
+            unsafe { self.early(member, &shared, 0.0, act) };
+            meeting.wait();
+            // SAFETY: late, for a line of the share; in place of a step.
+            self.late(member, |line| unsafe { self.gather_line(line, &shared) });
+        });
+    }
+
+    /// A member's forces, and `act` on the lines that wait for no other member, each as soon as its forces are there;
+    /// `weight`: of viscous power.
     ///
     /// # Safety
-    /// No thread writes forces.
-    pub(super) unsafe fn gather(line: &Line, i: usize, view: &View<T>) -> Vec3<T> {
+    /// The caller is in the early phase of [`Shared`]'s contract.
+    unsafe fn early(&self, member: usize, shared: &Shared<T>, weight: f64, act: impl Fn(usize)) -> Failed {
+        let mut failed = Failed(None);
+        for task in &self.shares[member].early {
+            match *task {
+                Task::Forces(item) => {
+                    let item = item as usize;
+                    // SAFETY: early, for an item of the share.
+                    let bad = unsafe { self.kernel.forces(&self.elements, item, shared, weight) };
+                    failed.0 = [failed.0, bad.0].into_iter().flatten().min();
+                }
+                Task::Move(line) => act(line as usize),
+            }
+        }
+        failed
+    }
+
+    /// `act` on the lines of a member that wait for all forces.
+    fn late(&self, member: usize, act: impl Fn(usize)) {
+        self.shares[member].late.iter().for_each(|line| act(*line as usize));
+    }
+
+    /// Internal force on node `i` of a line: its slots, first to last.
+    ///
+    /// # Safety
+    /// The caller may read the line's slots by the contract of [`Shared`].
+    unsafe fn gather(&self, line: usize, i: usize, shared: &Shared<T>) -> Vec3<T> {
         let mut f = [T::zero(); 3];
-        for (k, &slot) in line.slots.iter().enumerate() {
+        for (k, &slot) in self.nodes.lines[line].slots.iter().enumerate() {
             for d in 0..3 {
-                let part = unsafe { *view.f[d].add(slot + i) };
+                // SAFETY: the caller's promise; `i` is within the line.
+                let part = unsafe { *shared.f[d].add(slot + i) };
                 f[d] = if k == 0 { part } else { f[d] + part };
             }
         }
         f
     }
 
+    /// Puts the internal forces on a line's nodes in the place of their positions.
+    ///
+    /// # Safety
+    /// The caller may step the line by the contract of [`Shared`].
+    unsafe fn gather_line(&self, line: usize, shared: &Shared<T>) {
+        let Line { start, ref nodes, .. } = self.nodes.lines[line];
+        for i in 0..nodes.len() {
+            // SAFETY: the caller's promise.
+            unsafe {
+                let f = self.gather(line, i, shared);
+                (0..3).for_each(|d| *shared.x[d].add(start + i) = f[d]);
+            }
+        }
+    }
+
     /// Sums the reaction of the rubber (and of body forces on the rim nodes), node by node in order.
     ///
     /// # Safety
-    /// No thread writes forces or positions.
-    unsafe fn reaction(&self, view: &View<T>, axle: [f64; 3]) -> Reaction {
+    /// The caller is between the early and the late phase of [`Shared`]'s contract.
+    unsafe fn reaction(&self, shared: &Shared<T>, gravity: Vec3<T>, axle: [f64; 3]) -> Reaction {
         let mut sum = Reaction::default();
         for &(line, i) in &self.rim_nodes {
-            let line = &self.nodes.lines[line];
-            let (n, f_int) = (line.start + i, unsafe { Self::gather(line, i, view) });
-            let weight = |i: usize| (self.nodes.mass.slice()[n] * self.gravity[i]).to_f64();
+            let n = self.nodes.lines[line].start + i;
+            // SAFETY: the rim's lines move late.
+            let (f_int, x) = unsafe { (self.gather(line, i, shared), shared.x.map(|x| *x.add(n))) };
+            let weight = |i: usize| (self.nodes.mass.slice()[n] * gravity[i]).to_f64();
             let f: [f64; 3] = std::array::from_fn(|i| weight(i) - f_int[i].to_f64());
-            let arm: [f64; 3] = std::array::from_fn(|i| unsafe { *view.x[i].add(n) }.to_f64() - axle[i]);
+            let arm: [f64; 3] = std::array::from_fn(|i| x[i].to_f64() - axle[i]);
             for i in 0..3 {
                 let (j, k) = ((i + 1) % 3, (i + 2) % 3);
                 sum.force[i] += f[i];
@@ -263,35 +241,5 @@ impl<T: Real> CpuEngine<T> {
             }
         }
         sum
-    }
-}
-
-/// A step's contact from its lines, first to last; `before`: nodes that touched in the step before.
-fn contact_of(lines: &[LineContact], dtm: f64, before: &mut u32) -> StepContact {
-    let mut sum = StepContact { dtm, ..StepContact::default() };
-    let (mut entered, mut switched) = (0, 0);
-    for line in lines {
-        for d in 0..3 {
-            sum.force[d] += line.force[d];
-        }
-        sum.touching += line.touching;
-        entered += line.entered;
-        switched += line.switched;
-    }
-    // Those of the step before that are not among the touching have left.
-    let left = before.saturating_sub(sum.touching - entered);
-    sum.changes = entered + switched + left;
-    *before = sum.touching;
-    sum
-}
-
-/// A pointer that threads may share under a pass's rules.
-pub(super) struct Pointer<T>(pub *mut T);
-// SAFETY: dereferenced only in unsafe code that keeps threads apart.
-unsafe impl<T> Send for Pointer<T> {}
-unsafe impl<T> Sync for Pointer<T> {}
-impl<T> Pointer<T> {
-    pub(super) fn get(&self) -> *mut T {
-        self.0
     }
 }

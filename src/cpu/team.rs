@@ -2,6 +2,21 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// Runs `work` on so many threads, this one the first of them; returns what it gives on this one. They meet where `work`
+/// says so.
+pub fn run<R>(members: usize, work: impl Fn(usize, &SpinBarrier) -> R + Sync) -> R {
+    let meeting = SpinBarrier::new(members);
+    std::thread::scope(|scope| {
+        for member in 1..members {
+            let (work, meeting) = (&work, &meeting);
+            scope.spawn(move || {
+                work(member, meeting);
+            });
+        }
+        work(0, &meeting)
+    })
+}
+
 /// A barrier that spins, then yields: a step of a small mesh is tens of microseconds.
 pub struct SpinBarrier {
     members: usize,

@@ -1,0 +1,177 @@
+//! Forces of a batch of elements onto the slots of its lines: what a row's elements give their front corners is carried into
+//! the next batch, so that a node gets the force of both its neighbours in the row at once.
+//!
+//! All of it is inlined into the pass of a kernel ([`super::elements`]).
+
+use super::fetch::Copied;
+use super::layout::{Item, Loose};
+use super::rows::{Batch, Row, Rows};
+use super::shared::Shared;
+use crate::model::chains::{BACK, FRONT};
+use crate::physics::element::Corners;
+use crate::physics::lanes::{Lanes, first};
+use crate::physics::scalar::Real;
+use crate::physics::tensor::Vec3;
+
+/// What the elements in the lanes of the batch before give their front corners, by line of the row.
+pub type Carry<N> = [Vec3<N>; 4];
+
+/// Adds the forces of batch `b` of an item: to the lines of its rows, or into `copy` if it is loose.
+///
+/// # Safety
+/// An item of the early phase of [`Shared`]'s contract; its batches come in order, with the `carry` of the one before.
+#[inline(always)]
+pub unsafe fn add_batch<N: Lanes>(
+    item: &Item,
+    b: usize,
+    shared: &Shared<N::Real>,
+    copy: &mut Copied<N::Real>,
+    carry: &mut Carry<N>,
+    f: &Corners<N>,
+) {
+    match item {
+        // SAFETY: one of its batches; the slots of its lines are the item's.
+        Item::Rows(rows) => unsafe { add_to_rows(rows, rows.batches.get_unchecked(b), shared, f, carry) },
+        Item::Loose(_) => {
+            for c in 0..8 {
+                for d in 0..3 {
+                    // SAFETY: a copy has room for a vector a corner.
+                    unsafe { f[c][d].store(copy.f[d].as_mut_ptr(), c * N::WIDTH) };
+                }
+            }
+        }
+    }
+}
+
+/// Adds the forces of loose elements, which `copy` holds, lane by lane.
+///
+/// # Safety
+/// An item of the early phase of [`Shared`]'s contract.
+#[inline(always)]
+pub unsafe fn add_loose<T: Real>(loose: &Loose, shared: &Shared<T>, copy: &Copied<T>, width: usize) {
+    for (c, slots) in loose.f.iter().enumerate() {
+        for (lane, &slot) in slots[..loose.elements.len()].iter().enumerate() {
+            for d in 0..3 {
+                // SAFETY: the slots of its lines are the item's.
+                unsafe { *shared.f[d].add(slot as usize) += copy.f[d][c * width + lane] };
+            }
+        }
+    }
+}
+
+/// Adds a batch's forces to the lines of its row and of the next; `carry`: what the elements in the lanes of the batch before
+/// give their front corners.
+///
+/// # Safety
+/// A batch of these rows, in an item of the early phase of [`Shared`]'s contract.
+#[inline(always)]
+unsafe fn add_to_rows<N: Lanes>(
+    rows: &Rows,
+    batch: &Batch,
+    shared: &Shared<N::Real>,
+    f: &Corners<N>,
+    carry: &mut Carry<N>,
+) {
+    // SAFETY: the slots of both rows are the item's.
+    unsafe {
+        let row = rows.row_of(batch);
+        add_to_row(row, shared, batch, f, carry);
+        if batch.at() + batch.lanes() < row.count {
+            return;
+        }
+        end_of_row(row, shared, batch.lanes(), carry);
+        if batch.next() > 0 {
+            start_of_row(rows.row_after(batch), shared, batch, f);
+        } else {
+            *carry = [[N::zero(); 3]; 4];
+        }
+    }
+}
+
+/// Adds the forces of the lanes on a row to its lines.
+///
+/// # Safety
+/// As [`add_to_rows`].
+#[inline(always)]
+unsafe fn add_to_row<N: Lanes>(
+    row: &Row,
+    shared: &Shared<N::Real>,
+    batch: &Batch,
+    f: &Corners<N>,
+    carry: &mut Carry<N>,
+) {
+    let count = batch.lanes();
+    for k in 0..4 {
+        for d in 0..3 {
+            let to = row.f[k] + batch.at();
+            let (mut back, front) = (f[BACK[k]][d], f[FRONT[k]][d]);
+            if count < N::WIDTH {
+                back = back.choose(N::zero(), first(count));
+            }
+            let mut sum = back + front.moved_up(carry[k][d]);
+            carry[k][d] = front;
+            if count < N::WIDTH {
+                // An open row's last node has its force of the element before it alone.
+                sum = sum.choose(N::zero(), first(count + usize::from(!row.closed)));
+            }
+            // SAFETY: a slot is a vector longer than its line.
+            unsafe {
+                if row.add[k] {
+                    sum += N::load(shared.f[d], to);
+                }
+                sum.store(shared.f[d], to);
+            }
+        }
+    }
+}
+
+/// What the last element of a row, in lane `lanes` - 1 of `carry`, gives its front corners: to the first nodes of a closed
+/// row, else to a node more, which has its force already unless the batch is full.
+///
+/// # Safety
+/// As [`add_to_rows`].
+#[inline(always)]
+unsafe fn end_of_row<N: Lanes>(row: &Row, shared: &Shared<N::Real>, lanes: usize, carry: &Carry<N>) {
+    for k in 0..4 {
+        for d in 0..3 {
+            // SAFETY: a slot is a vector longer than its line.
+            unsafe {
+                if row.closed {
+                    let start = shared.f[d].add(row.f[k]);
+                    *start += carry[k][d].lane(lanes - 1);
+                } else if lanes == N::WIDTH {
+                    let mut last = N::zero().moved_up(carry[k][d]);
+                    if row.add[k] {
+                        last += N::load(shared.f[d], row.f[k] + row.count);
+                    }
+                    last.store(shared.f[d], row.f[k] + row.count);
+                }
+            }
+        }
+    }
+}
+
+/// Adds the forces of the lanes on the next row to the start of its lines, whose first nodes have nothing from a lane before.
+/// What the lines before have in those lanes is left alone.
+///
+/// # Safety
+/// As [`add_to_rows`]; the batch has lanes on `row`.
+#[inline(always)]
+unsafe fn start_of_row<N: Lanes>(row: &Row, shared: &Shared<N::Real>, batch: &Batch, f: &Corners<N>) {
+    let mask = batch.next_lanes();
+    let behind = mask & !(1 << batch.lanes());
+    for k in 0..4 {
+        for d in 0..3 {
+            let to = shared.f[d].wrapping_add(row.f[k]).wrapping_sub(batch.lanes());
+            let front = f[FRONT[k]][d].moved_up(N::zero()).choose(N::zero(), behind);
+            let mut sum = f[BACK[k]][d] + front;
+            // SAFETY: nothing but the lanes of the mask is touched.
+            unsafe {
+                if row.add[k] {
+                    sum += N::zero().load_over(to, mask);
+                }
+                sum.store_where(to, mask);
+            }
+        }
+    }
+}

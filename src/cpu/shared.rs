@@ -1,0 +1,151 @@
+//! What the threads of a step write, and the contract under which they do.
+
+use super::plan::Plan;
+use super::state::Field;
+use super::sums::{LineContact, LineSums};
+use crate::engine::SurfaceSum;
+use crate::physics::lanes::WIDEST;
+use crate::physics::scalar::Real;
+use std::marker::PhantomData;
+
+/// What a body's steps write.
+pub struct Arrays<T> {
+    /// Positions relative to the frame and velocities, by place.
+    pub x: Field<T>,
+    pub v: Field<T>,
+    /// Forces, by slot.
+    pub f: Field<T>,
+    /// Viscous work so far of the window [J], by item and lane.
+    pub power: Vec<f64>,
+    /// Sums of the window so far, by line.
+    pub sums: Vec<LineSums>,
+    /// Sums of the window so far, and the last step in which a node touched plus one (0: never), by surface node.
+    pub surface: Vec<SurfaceSum>,
+    pub last_touch: Vec<u64>,
+    /// Contact by line that can touch, of even and of odd steps: one is summed up while the other is written.
+    pub contact: [Vec<LineContact>; 2],
+}
+
+impl<T: Real> Arrays<T> {
+    /// Zeros for a plan with so many surface nodes.
+    pub fn new(plan: &Plan, surface_nodes: usize) -> Self {
+        Arrays {
+            x: Field::zeros(plan.places),
+            v: Field::zeros(plan.places),
+            f: Field::zeros(plan.forces),
+            power: vec![0.0; plan.items.len() * WIDEST],
+            sums: vec![LineSums::default(); plan.lines.len()],
+            surface: vec![SurfaceSum::default(); surface_nodes],
+            last_touch: vec![0; surface_nodes],
+            contact: [0, 1].map(|_| vec![LineContact::default(); plan.surface_lines]),
+        }
+    }
+
+    /// The arrays as threads share them, nobody else meanwhile.
+    pub fn shared(&mut self) -> Shared<'_, T> {
+        Shared {
+            x: self.x.pointers(),
+            v: self.v.pointers(),
+            f: self.f.pointers(),
+            power: self.power.as_mut_ptr(),
+            sums: self.sums.as_mut_ptr(),
+            surface: self.surface.as_mut_ptr(),
+            last_touch: self.last_touch.as_mut_ptr(),
+            contact: self.contact.each_mut().map(|c| c.as_mut_ptr()),
+            surface_lines: self.contact[0].len(),
+            arrays: PhantomData,
+        }
+    }
+}
+
+/// [`Arrays`] while a team of threads works on them: pointers without a lock.
+///
+/// # The contract
+///
+/// Who dereferences them is a member of one team that all goes through the same phases, with a meeting
+/// ([`super::team::SpinBarrier`]) between one phase and the next, and touches nothing but this:
+///
+/// | phase | a member, for | reads | writes |
+/// |---|---|---|---|
+/// | early | an item of its share, once | `x`, `v` of the item's lines | slots of the item's group, the item's `power` |
+/// | early | a line of its share, after the item before it in the share | the line's slots | the line's `x`, `v`, `sums`, `contact` of this step, entries of its surface nodes; its slots, to clear them |
+/// | between | any line that moves late | its slots, its `x` | |
+/// | late | a late line of its share | as an early line | as an early line |
+/// | after | all lines (the first member alone) | `contact` of the step before | |
+///
+/// The phase after a step is the early one of the next step, which writes the other half of `contact`.
+///
+/// [`Plan`] makes that enough. A group belongs to one member, and no two items' `power` is the same, so forces of
+/// different members never meet. An early line is touched by items of its own member alone, and by none of them after
+/// it has moved, so nobody reads nodes that move. A slot passes from one line to another within one member's share, once
+/// the first line has moved; late lines keep theirs. Every line moves once, in one share. Places, slots and indices
+/// lie within the arrays, lanes beyond a line's end included, because [`Arrays::new`] takes their lengths from the same plan.
+/// Tests: `cpu/plan/slots.rs` follows every number through a step; `tests/determinism.rs` compares the bits of threads.
+pub struct Shared<'a, T> {
+    pub x: [*mut T; 3],
+    pub v: [*mut T; 3],
+    pub f: [*mut T; 3],
+    power: *mut f64,
+    sums: *mut LineSums,
+    surface: *mut SurfaceSum,
+    last_touch: *mut u64,
+    contact: [*mut LineContact; 2],
+    surface_lines: usize,
+    arrays: PhantomData<&'a mut Arrays<T>>,
+}
+
+// SAFETY: what it points to may be reached from several threads under the contract above, which whoever dereferences a
+// pointer promises.
+unsafe impl<T: Send> Send for Shared<'_, T> {}
+// SAFETY: as above.
+unsafe impl<T: Send> Sync for Shared<'_, T> {}
+
+impl<T: Real> Shared<'_, T> {
+    /// Sums of viscous power of an item, one a lane.
+    #[inline(always)]
+    pub fn power(&self, item: usize) -> *mut f64 {
+        self.power.wrapping_add(item * WIDEST)
+    }
+
+    /// Sums of a line.
+    ///
+    /// # Safety
+    /// The caller steps the line.
+    #[inline(always)]
+    #[allow(clippy::mut_from_ref)] // the contract keeps them apart
+    pub unsafe fn sums(&self, line: usize) -> &mut LineSums {
+        // SAFETY: the caller's promise.
+        unsafe { &mut *self.sums.add(line) }
+    }
+
+    /// Sums of a surface node, and its last step in contact.
+    ///
+    /// # Safety
+    /// The caller steps the node's line.
+    #[inline(always)]
+    #[allow(clippy::mut_from_ref)] // the contract keeps them apart
+    pub unsafe fn surface(&self, k: usize) -> (&mut SurfaceSum, &mut u64) {
+        // SAFETY: the caller's promise.
+        unsafe { (&mut *self.surface.add(k), &mut *self.last_touch.add(k)) }
+    }
+
+    /// Contact in step number `step` of line `k` of those that can touch.
+    ///
+    /// # Safety
+    /// The caller steps the line.
+    #[inline(always)]
+    #[allow(clippy::mut_from_ref)] // the contract keeps them apart
+    pub unsafe fn contact(&self, step: u64, k: usize) -> &mut LineContact {
+        // SAFETY: the caller's promise.
+        unsafe { &mut *self.contact[(step % 2) as usize].add(k) }
+    }
+
+    /// Contact of a step by line.
+    ///
+    /// # Safety
+    /// The caller is the first member, in the phase after the step.
+    pub unsafe fn contacts(&self, step: u64) -> &[LineContact] {
+        // SAFETY: nobody writes this half until the next meeting.
+        unsafe { std::slice::from_raw_parts(self.contact[(step % 2) as usize], self.surface_lines) }
+    }
+}

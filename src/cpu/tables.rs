@@ -1,0 +1,77 @@
+//! A model's numbers as the passes read them: tables by place, line and lane.
+
+use super::layout::Line;
+use super::plan::Plan;
+use super::state::{Aligned, Field};
+use crate::model::Model;
+use crate::physics::lanes::Level;
+use crate::physics::scalar::Real;
+use std::ops::Range;
+
+/// Number of a node that cannot touch.
+pub const NO_SURFACE: u32 = u32::MAX;
+
+/// Constant data of the node pass.
+pub struct Nodes<T> {
+    pub lines: Vec<Line>,
+    /// By place.
+    pub mass: Aligned<T>,
+    pub inverse_mass: Aligned<T>,
+    /// Number among the surface nodes; this and the arms by [`super::layout::NodeBatch::boundary`] and lane.
+    pub surface_of: Vec<u32>,
+    /// Rim nodes' positions relative to the axle in the reference orientation; zero for others.
+    pub rim_arms: Field<T>,
+    /// One over the area of each surface node [1/m2], as of the last sample; empty unless friction looks at pressure.
+    pub inverse_area: Vec<T>,
+    pub level: Level,
+}
+
+/// Lumped masses [kg] and their inverses, by place.
+pub fn masses<T: Real>(model: &Model, plan: &Plan) -> [Aligned<T>; 2] {
+    let mut masses = [Aligned::zeros(plan.places), Aligned::zeros(plan.places)];
+    for (&place, &m) in plan.place.iter().zip(&model.mass) {
+        for (table, value) in masses.iter_mut().zip([m, 1.0 / m]) {
+            table.slice_mut()[place as usize] = T::from_f64(value);
+        }
+    }
+    masses
+}
+
+/// Tables of the lanes of batches with rim or surface nodes: number among the `surface` nodes, and position relative to the
+/// axle [m] of a rim node, zero for others.
+pub fn boundary<T: Real>(model: &Model, plan: &Plan, surface: &[u32], width: usize) -> (Vec<u32>, Field<T>) {
+    let mut lane_of = vec![0; model.node_count()];
+    for line in &plan.lines {
+        for (batch, nodes) in line.batches.iter().zip(line.nodes.chunks(width)) {
+            nodes.iter().zip(batch.boundary..).for_each(|(&n, at)| lane_of[n as usize] = at as usize);
+        }
+    }
+    let mut surface_of = vec![NO_SURFACE; plan.boundary];
+    for (k, &n) in surface.iter().enumerate() {
+        surface_of[lane_of[n as usize]] = k as u32;
+    }
+    let mut rim_arms = Field::zeros(plan.boundary);
+    for &n in &model.mesh.rim {
+        rim_arms.set(lane_of[n as usize], sub64(model.mesh.nodes[n as usize], model.mesh.axle));
+    }
+    (surface_of, rim_arms)
+}
+
+/// Reference geometry by lanes: these numbers of every class, one after the other.
+pub fn shape_table<T: Real>(model: &Model, plan: &Plan, width: usize, numbers: Range<usize>) -> Aligned<T> {
+    let length = numbers.len();
+    let mut table = Aligned::zeros(plan.shapes.len() * length * width);
+    for (lanes, part) in plan.shapes.iter().zip(table.slice_mut().chunks_exact_mut(length * width)) {
+        for (lane, class) in lanes[..width].iter().enumerate() {
+            let of_class = &model.classes[*class as usize].numbers()[numbers.clone()];
+            for (i, number) in of_class.iter().enumerate() {
+                part[i * width + lane] = T::from_f64(*number);
+            }
+        }
+    }
+    table
+}
+
+pub fn sub64(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|d| a[d] - b[d])
+}
