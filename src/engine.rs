@@ -1,6 +1,7 @@
 //! What every engine offers: the CPU's and the GPU's are interchangeable behind [`Engine`].
 
 use crate::error::Result;
+pub use crate::kernels::SurfaceSum;
 use crate::physics::rim::Coordinates;
 
 /// One step, planned by the host: everything that depends on time.
@@ -64,27 +65,6 @@ impl Works {
     pub fn without_internal(&self) -> f64 {
         self.viscous + self.damping + self.body_force + self.rim + self.normal + self.friction
     }
-}
-
-/// A surface node over a window.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct SurfaceSum {
-    /// Position and half-step velocity at the end of the window, absolute [m, m/s].
-    pub x: [f64; 3],
-    pub v: [f64; 3],
-    /// Sum of contact force times mean step [N s].
-    pub impulse: [f64; 3],
-    /// Work of the tangential force on the node [J].
-    pub friction_work: f64,
-    /// Work that the road's motion puts in: force times velocity of the road's surface at the node, times mean step [J]. What
-    /// friction dissipates is this less the friction work.
-    pub road_work: f64,
-    /// Steps in contact, and those of them that stick.
-    pub touching: u32,
-    pub sticking: u32,
-    /// State in the last step.
-    pub touches: bool,
-    pub sticks: bool,
 }
 
 /// Contact over the whole body in one step.

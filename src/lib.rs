@@ -11,6 +11,7 @@ pub mod engine;
 pub mod error;
 pub mod gpu;
 pub mod implicit;
+pub mod instructions;
 pub mod model;
 pub mod output;
 pub mod plot;
@@ -22,4 +23,5 @@ pub mod scene;
 pub mod study;
 
 pub use error::{Error, Result};
+pub use hexroll_kernels as kernels;
 pub use hexroll_physics as physics;

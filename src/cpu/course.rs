@@ -1,8 +1,9 @@
 //! The steps that a team takes, and how the rim goes meanwhile.
 
 use super::rim::{Reaction, RimState};
-use super::world::{Conditions, World};
+use super::world::World;
 use crate::engine::{StageSetup, Step};
+use crate::kernels::Conditions;
 use crate::physics::scalar::Real;
 
 /// Steps to take, from step number `first` on.

@@ -2,22 +2,23 @@
 
 use super::course::Course;
 use super::energies::Stored;
-use super::layout::Item;
 use super::plan::Plan;
 use super::program::Program;
 use super::rim::RimState;
-use super::shared::Arrays;
-use super::state::Field;
 use super::steps::{Stopped, Taken};
-use super::sums::{LineSums, total};
+use super::sums::total;
 use super::world::World;
 use crate::engine::{Engine, EngineInfo, StageSetup, State, Step, StepContact, SurfaceSum, Window};
 use crate::error::{Error, Result};
+use crate::instructions::{Compilable, compiled};
+use crate::kernels::Arrays;
+use crate::kernels::Field;
+use crate::kernels::Item;
+use crate::kernels::LineSums;
 use crate::model::mesh::Mesh;
 use crate::model::{Model, areas, frame};
 use crate::physics::lanes::Level;
 use crate::physics::rim::Coordinates;
-use crate::physics::scalar::Real;
 use crate::physics::tensor::vec3;
 use crate::scene::{Element, Friction, Scene};
 
@@ -60,7 +61,7 @@ pub struct CpuEngine<T> {
     window_steps: u64,
 }
 
-impl<T: Real> CpuEngine<T> {
+impl<T: Compilable> CpuEngine<T> {
     /// An engine at rest in the reference shape, with the best instructions of this machine. `threads` = 0: as many as
     /// the mesh keeps busy, at most one a core.
     pub fn new(model: &Model, scene: &Scene, threads: usize) -> Self {
@@ -72,15 +73,17 @@ impl<T: Real> CpuEngine<T> {
         let threads = if threads == 0 { threads_for(model) } else { threads };
         let mesh = &model.mesh;
         let road = scene.road;
-        let width = level.width::<T>();
+        let compiled = compiled(level);
+        let passes = T::passes(&*compiled, &model.composition(), model.is_extruded());
+        let width = passes.width;
         let plan = Plan::new(model, road.is_some(), width, threads);
         let surface_nodes = if road.is_some() { mesh.surface.clone() } else { Vec::new() };
-        let mut arrays = Arrays::new(&plan, surface_nodes.len());
+        let mut arrays = Arrays::new(&plan.sizes(surface_nodes.len()));
         let before = [Field::zeros(plan.places), Field::zeros(plan.places)];
         let grain = frame::grain(mesh);
         let frame = frame::shift(grain, mesh.axle, [0.0; 3], road.as_ref());
-        let stored = Stored::new(model, &plan, level, width);
-        let program = Program::new(model, plan, &surface_nodes, level, width);
+        let stored = Stored::new(model, &plan, compiled.energies(&model.composition()), width);
+        let program = Program::new(model, plan, &surface_nodes, passes);
         program.fill(&mut arrays.x, &mesh.nodes, frame);
         let mut engine = CpuEngine {
             program,
@@ -198,7 +201,7 @@ impl<T: Real> CpuEngine<T> {
     }
 }
 
-impl<T: Real> Engine for CpuEngine<T> {
+impl<T: Compilable> Engine for CpuEngine<T> {
     fn info(&self) -> EngineInfo {
         EngineInfo {
             engine: "cpu".into(),

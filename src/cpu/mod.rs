@@ -69,36 +69,32 @@
 //! engine      the trait of engines: windows, states, failures
 //! steps       a team goes through early and late tasks      course   the steps to take, and the rim meanwhile
 //! program     the plan with its passes and tables           team     threads that meet
+//! tables      masses, shapes, arms by place and lane        energies stored energies of a sample
+//! plan/*      from a model to items, lines, shares          world    conditions of a step
+//! sums        of all lines                                  rim      its own equation of motion
+//! ```
+//!
+//! and below them the crate of kernels (`src/kernels`):
+//!
+//! ```text
 //! elements    forces of an item: fetch -> formulation -> scatter
 //! nodes       a step of a line: touch (contact), books (works)
 //! shared      arrays that threads write, and the contract
-//! tables      masses, shapes, arms by place and lane        energies stored energies of a sample
-//! plan/*      from a model to items, lines, shares
-//! layout      items and lines                               world    conditions of a step
-//! rows        batches of lanes                              rim      its own equation of motion
-//! state       aligned arrays                                sums     of a line, and of all
+//! layout      items and lines                               conditions of a step
+//! rows        batches of lanes                              sums     of a line
+//! state       aligned arrays
 //! ```
 
-mod books;
 mod course;
-mod elements;
 mod energies;
 mod engine;
-mod fetch;
-mod layout;
-mod nodes;
 mod plan;
 mod program;
 mod rim;
-mod rows;
-mod scatter;
-mod shared;
-mod state;
 mod steps;
 mod sums;
 mod tables;
 mod team;
-mod touch;
 mod world;
 
 pub use engine::CpuEngine;
@@ -137,10 +133,8 @@ pub fn engine_at(
 
 #[cfg(test)]
 mod tests {
-    use super::layout::NodeBatch;
-    use super::rows::{Batch, Row};
-    use super::sums::LineSums;
     use crate::engine::SurfaceSum;
+    use crate::kernels::{Batch, LineSums, NodeBatch, Row};
 
     /// The table of bytes above.
     #[test]

@@ -1,16 +1,15 @@
 //! A compiled body: its plan with the numbers that go with it. Constant while steps are taken.
 
-use super::elements::{self, Elements, Kernel};
 use super::plan::{Plan, Share};
-use super::state::Field;
-use super::tables::{Nodes, boundary, masses, shape_table, sub64};
+use super::tables::{boundary, masses, shape_table, sub64};
+use crate::kernels::elements::Elements;
+use crate::kernels::{Field, Nodes, Passes};
 use crate::model::Model;
-use crate::physics::lanes::Level;
 use crate::physics::scalar::Real;
 
 /// Passes, tables and the work of each thread.
 pub struct Program<T> {
-    pub kernel: Box<dyn Kernel<T>>,
+    pub passes: Passes<T>,
     pub elements: Elements<T>,
     pub nodes: Nodes<T>,
     /// Work of each thread.
@@ -23,18 +22,18 @@ pub struct Program<T> {
 
 impl<T: Real> Program<T> {
     /// A plan of a model with the numbers of these `surface` nodes.
-    pub fn new(model: &Model, plan: Plan, surface: &[u32], level: Level, width: usize) -> Self {
-        let kernel = elements::compose(model, level);
-        let shapes = shape_table(model, &plan, width, kernel.numbers());
+    pub fn new(model: &Model, plan: Plan, surface: &[u32], passes: Passes<T>) -> Self {
+        let width = passes.width;
+        let shapes = shape_table(model, &plan, width, passes.elements.numbers());
         let [mass, inverse_mass] = masses(model, &plan);
         let (surface_of, rim_arms) = boundary(model, &plan, surface, width);
         let rim_nodes = rim_nodes(model, &plan);
         let Plan { items, lines, shares, place, .. } = plan;
         let inverse_area = Vec::new();
         Program {
-            kernel,
+            passes,
             elements: Elements { items, shapes },
-            nodes: Nodes { lines, mass, inverse_mass, surface_of, rim_arms, inverse_area, level },
+            nodes: Nodes { lines, mass, inverse_mass, surface_of, rim_arms, inverse_area },
             shares,
             place,
             rim_nodes,

@@ -3,16 +3,16 @@
 //! Every `unsafe` here is a member of a team that keeps to the contract of [`Shared`]; the comments name the phase.
 
 use super::course::Course;
-use super::elements::Failed;
-use super::layout::Line;
-use super::nodes::node_pass;
 use super::plan::Task;
 use super::program::Program;
 use super::rim::{Reaction, RimState};
-use super::shared::{Arrays, Shared};
-use super::sums::{LineSums, contact_of, total};
+use super::sums::{contact_of, total};
 use super::team::{self, SpinBarrier};
 use crate::engine::{Probe, StepContact};
+use crate::kernels::Line;
+use crate::kernels::LineSums;
+use crate::kernels::elements::Failed;
+use crate::kernels::{Arrays, Shared};
 use crate::physics::lanes::WIDEST;
 use crate::physics::scalar::Real;
 use crate::physics::tensor::Vec3;
@@ -89,7 +89,7 @@ impl<T: Real> Program<T> {
         for (n, step) in course.steps.iter().enumerate() {
             let c = course.early(n);
             // SAFETY: early, for a line of the share.
-            let act = |line| unsafe { node_pass(&self.nodes, &c, line, shared, false) };
+            let act = |line| unsafe { self.passes.nodes.step(&self.nodes, &c, line, shared, false) };
             // SAFETY: early.
             failure.note(n, unsafe { self.early(member, shared, step.dtm(), act) });
             meeting.wait();
@@ -104,7 +104,7 @@ impl<T: Real> Program<T> {
                 reaction
             });
             // SAFETY: late, for a line of the share.
-            self.late(member, |line| unsafe { node_pass(&self.nodes, &c, line, shared, false) });
+            self.late(member, |line| unsafe { self.passes.nodes.step(&self.nodes, &c, line, shared, false) });
             meeting.wait();
             if member == 0 && course.world.road.is_some() {
                 // SAFETY: after, by the first member.
@@ -125,7 +125,7 @@ impl<T: Real> Program<T> {
             let held = &course.rim.q;
             let c = world.probed(number, step, held, held);
             // SAFETY: early, for a line of the share.
-            let act = |line| unsafe { node_pass(&self.nodes, &c, line, &shared, true) };
+            let act = |line| unsafe { self.passes.nodes.step(&self.nodes, &c, line, &shared, true) };
             // SAFETY: early.
             unsafe { self.early(member, &shared, 0.5 * step.dt_before, act) };
             meeting.wait();
@@ -135,7 +135,7 @@ impl<T: Real> Program<T> {
             let c = world.probed(number, step, held, &q);
             meeting.wait();
             // SAFETY: late, for a line of the share.
-            self.late(member, |line| unsafe { node_pass(&self.nodes, &c, line, &shared, true) });
+            self.late(member, |line| unsafe { self.passes.nodes.step(&self.nodes, &c, line, &shared, true) });
         });
         let totals = total(&std::mem::replace(&mut arrays.sums, window));
         let power = std::mem::replace(&mut arrays.power, power);
@@ -176,7 +176,7 @@ impl<T: Real> Program<T> {
                 Task::Forces(item) => {
                     let item = item as usize;
                     // SAFETY: early, for an item of the share.
-                    let bad = unsafe { self.kernel.forces(&self.elements, item, shared, weight) };
+                    let bad = unsafe { self.passes.elements.forces(&self.elements, item, shared, weight) };
                     failed.0 = [failed.0, bad.0].into_iter().flatten().min();
                 }
                 Task::Move(line) => act(line as usize),

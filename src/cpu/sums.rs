@@ -1,55 +1,8 @@
-//! What steps add up besides moving nodes: by line, and over all lines in fixed order.
+//! Sums of lines over all lines, in fixed order.
 
 use crate::engine::{StepContact, Works};
+use crate::kernels::{LineContact, LineSums};
 use crate::physics::lanes::WIDEST;
-
-/// Sums of a line over the steps of a window, in double precision; arrays have one sum a lane.
-#[derive(Debug, Clone, Copy)]
-#[repr(align(64))]
-pub struct LineSums {
-    /// Work of the whole internal force, the viscous part included.
-    pub internal: [f64; WIDEST],
-    pub body_force: [f64; WIDEST],
-    pub damping: [f64; WIDEST],
-    pub rim: [f64; WIDEST],
-    /// Internal force on rim nodes and its moment about the axle, times the mean step.
-    pub rim_impulse: [[f64; WIDEST]; 3],
-    pub rim_moment_impulse: [[f64; WIDEST]; 3],
-    pub mixed_kinetic: [f64; WIDEST],
-    pub net_force2: [f64; WIDEST],
-    pub internal_force2: [f64; WIDEST],
-    pub normal: f64,
-    pub friction: f64,
-}
-
-impl Default for LineSums {
-    fn default() -> Self {
-        let none = [0.0; WIDEST];
-        LineSums {
-            internal: none,
-            body_force: none,
-            damping: none,
-            rim: none,
-            rim_impulse: [none; 3],
-            rim_moment_impulse: [none; 3],
-            mixed_kinetic: none,
-            net_force2: none,
-            internal_force2: none,
-            normal: 0.0,
-            friction: 0.0,
-        }
-    }
-}
-
-/// Contact of a line in one step.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct LineContact {
-    pub force: [f64; 3],
-    pub touching: u32,
-    /// Of those: nodes that were free the step before, and nodes that changed between stick and slip.
-    pub entered: u32,
-    pub switched: u32,
-}
 
 /// Sums over all nodes.
 #[derive(Debug, Clone, Copy, Default)]

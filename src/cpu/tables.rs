@@ -1,30 +1,13 @@
 //! A model's numbers as the passes read them: tables by place, line and lane.
 
-use super::layout::Line;
 use super::plan::Plan;
-use super::state::{Aligned, Field};
+use crate::kernels::{Aligned, Field};
 use crate::model::Model;
-use crate::physics::lanes::Level;
 use crate::physics::scalar::Real;
 use std::ops::Range;
 
 /// Number of a node that cannot touch.
 pub const NO_SURFACE: u32 = u32::MAX;
-
-/// Constant data of the node pass.
-pub struct Nodes<T> {
-    pub lines: Vec<Line>,
-    /// By place.
-    pub mass: Aligned<T>,
-    pub inverse_mass: Aligned<T>,
-    /// Number among the surface nodes; this and the arms by [`super::layout::NodeBatch::boundary`] and lane.
-    pub surface_of: Vec<u32>,
-    /// Rim nodes' positions relative to the axle in the reference orientation; zero for others.
-    pub rim_arms: Field<T>,
-    /// One over the area of each surface node [1/m2], as of the last sample; empty unless friction looks at pressure.
-    pub inverse_area: Vec<T>,
-    pub level: Level,
-}
 
 /// Lumped masses [kg] and their inverses, by place.
 pub fn masses<T: Real>(model: &Model, plan: &Plan) -> [Aligned<T>; 2] {

@@ -1,37 +1,12 @@
 //! What acts on the body from outside, and what of it a step needs.
 
 use crate::engine::Step;
+use crate::kernels::Conditions;
 use crate::physics::node::{Loads, Prediction, StepSize};
 use crate::physics::rim::{self, Coordinates};
 use crate::physics::scalar::Real;
 use crate::physics::tensor::{Vec3, vec3};
 use crate::scene::{Friction, Road};
-
-/// Everything that is the same for all nodes of a step.
-#[derive(Debug, Clone, Copy)]
-pub struct Conditions<T> {
-    pub step: StepSize<T>,
-    pub loads: Loads<T>,
-    pub prediction: Prediction<T>,
-    /// Seen from the engine's frame, and whether it moves.
-    pub road: Option<Road>,
-    pub road_moves: bool,
-    pub friction: Option<Friction>,
-    /// Axle at the end of the step in the engine's frame and its mean velocity, rotation at the end and its mean rate
-    /// (columns), axle at the start.
-    pub axle: Vec3<T>,
-    pub axle_velocity: Vec3<T>,
-    pub rotation: [Vec3<T>; 3],
-    pub rotation_rate: [Vec3<T>; 3],
-    pub axle_before: Vec3<T>,
-    /// Work of a force: f . (before v(n-1/2) + after v(n+1/2)).
-    pub weights: [T; 2],
-    /// Whether there is a body force, and mass damping: neither is booked otherwise.
-    pub has_gravity: bool,
-    pub has_damping: bool,
-    /// Number of the step, which touching nodes remember.
-    pub number: u64,
-}
 
 /// Road, loads, and the frame that positions are relative to.
 pub struct World<T> {

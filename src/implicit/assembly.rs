@@ -1,10 +1,12 @@
 //! Internal force and consistent tangent of the whole body.
 
-use super::element::{ElementForce, Kernel, Tangent, compose};
 use super::matrix::BlockMatrix;
 use crate::error::Error;
+use crate::instructions::compiled;
+use crate::kernels::tangents::{ElementForce, ElementForces, Tangent, TangentPass};
 use crate::model::Model;
-use crate::physics::element::Corners;
+use crate::physics::element::{Class, Corners};
+use crate::physics::lanes::Level;
 use crate::physics::tensor::Vec3;
 use rayon::prelude::*;
 
@@ -14,7 +16,8 @@ const BATCH: usize = 2048;
 /// Element passes of a model.
 pub struct Assembler<'a> {
     model: &'a Model,
-    kernel: Box<dyn Kernel>,
+    forces: Box<dyn ElementForces>,
+    tangents: Box<dyn TangentPass>,
 }
 
 /// Internal force at a configuration.
@@ -37,21 +40,25 @@ pub struct Stored {
 
 impl<'a> Assembler<'a> {
     pub fn new(model: &'a Model) -> Self {
-        let kernel = compose(&model.composition(), &model.classes);
-        Assembler { model, kernel }
+        let composition = model.composition();
+        Assembler {
+            model,
+            forces: hexroll_kernels_portable::element_forces(&composition),
+            tangents: compiled(Level::detect()).tangents(&composition),
+        }
     }
 
     fn corners(&self, element: usize, field: &[Vec3<f64>]) -> Corners<f64> {
         self.model.mesh.hexes[element].map(|n| field[n as usize])
     }
 
-    fn class(&self, element: usize) -> usize {
-        self.model.class_of[element] as usize
+    fn class(&self, element: usize) -> &Class<f64> {
+        &self.model.classes[self.model.class_of[element] as usize]
     }
 
     /// Internal force. `Err(element)`: its det F is not positive (or not a number).
     pub fn forces(&self, x: &[Vec3<f64>], v: &[Vec3<f64>]) -> std::result::Result<Forces, usize> {
-        let force = |e: usize| self.kernel.force(self.class(e), &self.corners(e, x), &self.corners(e, v));
+        let force = |e: usize| self.forces.force(self.class(e), &self.corners(e, x), &self.corners(e, v));
         let all: Vec<ElementForce> = (0..self.model.element_count()).into_par_iter().map(force).collect();
         if let Some(bad) =
             all.iter().position(|f| f.min_j.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater))
@@ -78,7 +85,7 @@ impl<'a> Assembler<'a> {
                 .into_par_iter()
                 .map(|e| {
                     let rates = self.model.mesh.hexes[e].map(|n| rate[n as usize]);
-                    self.kernel.tangent(self.class(e), &self.corners(e, x), &self.corners(e, v), &rates)
+                    self.tangents.tangent(self.class(e), &self.corners(e, x), &self.corners(e, v), &rates)
                 })
                 .collect();
             for (e, rows) in range.zip(&tangents) {
@@ -89,7 +96,7 @@ impl<'a> Assembler<'a> {
 
     /// Stored energies.
     pub fn stored(&self, x: &[Vec3<f64>]) -> Stored {
-        let energy = |e: usize| self.kernel.energy(self.class(e), &self.corners(e, x));
+        let energy = |e: usize| self.forces.energy(self.class(e), &self.corners(e, x));
         let all: Vec<_> = (0..self.model.element_count()).into_par_iter().map(energy).collect();
         Stored {
             strain: all.iter().map(|e| e.strain).sum(),

@@ -7,8 +7,6 @@ pub mod assembly;
 pub mod booking;
 pub mod contact;
 pub mod direct;
-pub mod dual;
-pub mod element;
 pub mod increments;
 pub mod krylov;
 pub mod linearised;

@@ -1,6 +1,7 @@
 //! Chains of elements: neighbours through the faces xi = +1 and xi = -1, one after the other. Lanes run along them,
 //! whatever the numbering of the mesh.
 
+pub use crate::physics::element::hex8::{BACK, FRONT};
 use std::collections::{HashMap, VecDeque};
 
 /// Elements in a row; `closed`: the last one's neighbour is the first.
@@ -9,10 +10,6 @@ pub struct Chain {
     pub elements: Vec<u32>,
     pub closed: bool,
 }
-
-/// Corners of the faces xi = -1 and xi = +1, so that entry k of one meets entry k of the other in a neighbour.
-pub const BACK: [usize; 4] = [0, 3, 4, 7];
-pub const FRONT: [usize; 4] = [1, 2, 5, 6];
 
 /// The chains of a mesh, each element in one, in an order in which neighbours stand near each other: the mesh's own,
 /// unless that is a poor one.

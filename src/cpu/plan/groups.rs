@@ -1,7 +1,7 @@
 //! Second stage: pieces joined into items, and items in groups that one thread takes.
 
-use super::super::rows::runs;
 use super::lines::{LaidChain, Lines, Piece};
+use crate::kernels::runs;
 use std::ops::Range;
 
 /// Most groups, and fewest elements of one.

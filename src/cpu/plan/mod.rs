@@ -28,7 +28,7 @@ mod slots;
 
 pub use schedule::{Share, Task};
 
-use super::layout::{Item, Line};
+use crate::kernels::{Item, Line, Sizes};
 use crate::model::Model;
 use crate::model::chains::chains;
 use groups::Groups;
@@ -60,6 +60,18 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// Lengths of the arrays that its steps write, with so many surface nodes.
+    pub fn sizes(&self, surface_nodes: usize) -> Sizes {
+        Sizes {
+            places: self.places,
+            forces: self.forces,
+            items: self.items.len(),
+            lines: self.lines.len(),
+            surface_lines: self.surface_lines,
+            surface_nodes,
+        }
+    }
+
     /// Lays a model out for lanes of `width` and `threads` threads; `road`: surface nodes can touch.
     pub fn new(model: &Model, road: bool, width: usize, threads: usize) -> Plan {
         let hexes = &model.mesh.hexes;

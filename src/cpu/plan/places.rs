@@ -1,12 +1,12 @@
 //! Last stage: items and lines with the places of their numbers.
 
-use super::super::layout::{Item, Line, Loose};
-use super::super::rows::{Row, Rows};
 use super::groups::{Groups, Joined};
 use super::lines::{LaidChain, Lines};
 use super::roles::LineRoles;
 use super::shapes::Shapes;
 use super::slots::Slots;
+use crate::kernels::{Item, Line, Loose};
+use crate::kernels::{Row, Rows};
 
 /// The items of all groups, in order; entries of the table of shapes are made as they need them.
 pub fn items(

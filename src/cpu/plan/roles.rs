@@ -1,7 +1,7 @@
 //! What the nodes of each line are: held by the rim, near the road, held in a component.
 
-use super::super::layout::NodeBatch;
 use super::lines::{Lines, NodeLine};
+use crate::kernels::NodeBatch;
 use crate::model::mesh::Mesh;
 
 /// Bits of a node; those of held components follow.

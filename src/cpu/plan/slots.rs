@@ -113,10 +113,10 @@ fn lend(
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::layout::{Item, Line};
     use super::super::tests::body;
     use super::super::{Plan, Task};
     use super::*;
+    use crate::kernels::{Item, Line};
 
     /// Lanes of the layouts: neither 44 nor 45 nodes fill them.
     const WIDTH: usize = 8;

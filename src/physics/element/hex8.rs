@@ -28,6 +28,10 @@ use std::ops::Range;
 pub const FACES: [[usize; 4]; 6] =
     [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
 
+/// Corners of the faces xi = -1 and xi = +1, so that entry k of one meets entry k of the other in a neighbour.
+pub const BACK: [usize; 4] = [0, 3, 4, 7];
+pub const FRONT: [usize; 4] = [1, 2, 5, 6];
+
 /// Signs of (xi, eta, zeta) at the eight corners.
 pub const SIGNS: [[f64; 3]; 8] = [
     [-1., -1., -1.],

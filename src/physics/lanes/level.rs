@@ -34,6 +34,21 @@ pub trait Vectors: Sized {
 pub trait Instructions: Copy + Send + Sync + 'static {
     /// Does the work in the widest lanes that these instructions have.
     fn call<T: Real, W: InLanes<T>>(self, work: W) -> W::Output;
+
+    /// Lanes of `T`, for elements and nodes alike.
+    fn width<T: Real>(self) -> usize {
+        self.call::<T, _>(Width)
+    }
+}
+
+struct Width;
+
+impl<T: Real> InLanes<T> for Width {
+    type Output = usize;
+    #[inline(always)]
+    fn run<N: Lanes<Real = T>>(self) -> usize {
+        N::WIDTH
+    }
 }
 
 /// What every machine has.
@@ -129,19 +144,6 @@ impl Level {
             Set::Avx2 => "avx2",
             Set::Avx512 => "avx512",
         }
-    }
-
-    /// Lanes of `T`, for elements and nodes alike.
-    pub fn width<T: Real>(self) -> usize {
-        struct Width;
-        impl<T: Real> InLanes<T> for Width {
-            type Output = usize;
-            #[inline(always)]
-            fn run<N: Lanes<Real = T>>(self) -> usize {
-                N::WIDTH
-            }
-        }
-        self.call::<T, _>(Width)
     }
 
     /// What every machine has.

@@ -5,8 +5,8 @@
 use super::layout::{Item, Loose};
 use super::rows::{Batch, Row, Rows};
 use super::shared::Shared;
-use crate::model::chains::{BACK, FRONT};
 use crate::physics::element::Corners;
+use crate::physics::element::hex8::{BACK, FRONT};
 use crate::physics::lanes::{Lanes, WIDEST};
 use crate::physics::scalar::Real;
 use std::cell::Cell;

@@ -1,6 +1,6 @@
 //! Rows of elements, and how batches of lanes go along them.
 
-use crate::model::chains::{BACK, FRONT};
+use crate::physics::element::hex8::{BACK, FRONT};
 use crate::physics::lanes::first;
 
 /// A chain of elements on four node lines.

@@ -2,31 +2,52 @@
 //! book-keeping of every force.
 
 use super::books::{LaneConditions, LaneSums, Moved, book, choose3, fold, splat3};
-use super::layout::Line;
+use super::conditions::Conditions;
+use super::layout::{Line, Nodes};
 use super::shared::Shared;
 use super::sums::LineContact;
-use super::tables::Nodes;
 use super::touch::{LineStep, touch};
-use super::world::Conditions;
 use crate::physics::lanes::{InLanes, Instructions, Lanes};
 use crate::physics::scalar::Real;
 use crate::physics::tensor::{Vec3, add, axpy, combined, dot, scale};
 
-/// Steps the nodes of a line; `probe`: only books what the step would do.
-///
-/// # Safety
-/// A line of the early or the late phase of [`Shared`]'s contract.
-pub unsafe fn node_pass<T: Real>(
-    nodes: &Nodes<T>,
-    conditions: &Conditions<T>,
-    line: usize,
-    shared: &Shared<T>,
-    probe: bool,
-) {
-    nodes.level.call(Pass { step: LineStep { nodes, c: conditions, line, shared }, probe });
+/// A node pass, for certain instructions.
+pub trait NodePass<T>: Send + Sync {
+    /// Steps the nodes of a line; `probe`: only books what the step would do.
+    ///
+    /// # Safety
+    /// A line of the early or the late phase of [`Shared`]'s contract.
+    unsafe fn step(
+        &self,
+        nodes: &Nodes<T>,
+        conditions: &Conditions<T>,
+        line: usize,
+        shared: &Shared<T>,
+        probe: bool,
+    );
 }
 
-/// The pass over a line; made by [`node_pass`] alone, whose promise it holds.
+/// The pass for these instructions.
+pub fn compose<T: Real>(instructions: impl Instructions) -> Box<dyn NodePass<T>> {
+    Box::new(With(instructions))
+}
+
+struct With<I>(I);
+
+impl<T: Real, I: Instructions> NodePass<T> for With<I> {
+    unsafe fn step(
+        &self,
+        nodes: &Nodes<T>,
+        conditions: &Conditions<T>,
+        line: usize,
+        shared: &Shared<T>,
+        probe: bool,
+    ) {
+        self.0.call(Pass { step: LineStep { nodes, c: conditions, line, shared }, probe });
+    }
+}
+
+/// The pass over a line; made by [`NodePass::step`] alone, whose promise it holds.
 struct Pass<'a, T> {
     step: LineStep<'a, T>,
     probe: bool,
@@ -38,7 +59,7 @@ impl<T: Real> InLanes<T> for Pass<'_, T> {
     #[inline(always)]
     fn run<N: Lanes<Real = T>>(self) {
         let Pass { step, probe } = &self;
-        // SAFETY: the promise of `node_pass`.
+        // SAFETY: the promise of `NodePass::step`.
         unsafe {
             if *probe {
                 line_in::<N, true>(step)

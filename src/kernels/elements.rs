@@ -6,8 +6,7 @@ use super::layout::Item;
 use super::scatter::{add_batch, add_loose};
 use super::shared::Shared;
 use super::state::Aligned;
-use crate::model::Model;
-use crate::physics::element::{Compose, Formulation, LaneShapes};
+use crate::physics::element::{Compose, Composition, Formulation, LaneShapes};
 use crate::physics::lanes::{InLanes, Instructions, Lanes, first};
 use crate::physics::material::{Hyperelastic, Viscosity};
 use crate::physics::scalar::{Real, Scalar};
@@ -26,7 +25,7 @@ pub struct Elements<T> {
 pub struct Failed(pub Option<usize>);
 
 /// An element pass, composed for one formulation, law and viscosity.
-pub trait Kernel<T>: Send + Sync {
+pub trait ElementPass<T>: Send + Sync {
     /// Corner forces of an item onto the slots of its lines; viscous power [W] times `weight` is added to the item's sums.
     ///
     /// # Safety
@@ -37,10 +36,13 @@ pub trait Kernel<T>: Send + Sync {
     fn numbers(&self) -> Range<usize>;
 }
 
-/// Composes the kernel that a model needs, for these instructions.
-pub fn compose<T: Real>(model: &Model, instructions: impl Instructions) -> Box<dyn Kernel<T>> {
-    let build = Build { instructions, kind: PhantomData };
-    model.composition().visit_fastest(model.is_extruded(), build)
+/// Composes the pass for these instructions; `extruded`: all elements are plane figures extruded along eta.
+pub fn compose<T: Real>(
+    instructions: impl Instructions,
+    composition: &Composition,
+    extruded: bool,
+) -> Box<dyn ElementPass<T>> {
+    composition.visit_fastest(extruded, Build { instructions, kind: PhantomData })
 }
 
 struct Build<T, I> {
@@ -49,7 +51,7 @@ struct Build<T, I> {
 }
 
 impl<T: Real, I: Instructions> Compose for Build<T, I> {
-    type Output = Box<dyn Kernel<T>>;
+    type Output = Box<dyn ElementPass<T>>;
 
     fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, viscosity: V) -> Self::Output {
         Box::new(Composed::<F, L, V, I> {
@@ -68,7 +70,7 @@ struct Composed<F, L, V, I> {
     kind: PhantomData<F>,
 }
 
-impl<T: Real, F: Formulation, L: Hyperelastic, V: Viscosity, I: Instructions> Kernel<T>
+impl<T: Real, F: Formulation, L: Hyperelastic, V: Viscosity, I: Instructions> ElementPass<T>
     for Composed<F, L, V, I>
 {
     fn numbers(&self) -> Range<usize> {
@@ -82,7 +84,7 @@ impl<T: Real, F: Formulation, L: Hyperelastic, V: Viscosity, I: Instructions> Ke
     }
 }
 
-/// The pass over an item; made by [`Kernel::forces`] alone, whose promise it holds.
+/// The pass over an item; made by [`ElementPass::forces`] alone, whose promise it holds.
 struct Pass<'a, T, F, L, V> {
     law: L,
     viscosity: V,
@@ -104,14 +106,14 @@ impl<T: Real, F: Formulation, L: Hyperelastic, V: Viscosity> InLanes<T> for Pass
         let mut held = take_copy();
         let copy: &mut Copied<T> = in_precision(&mut held);
         if let Item::Loose(loose) = item {
-            // SAFETY: the promise of `Kernel::forces`.
+            // SAFETY: the promise of `ElementPass::forces`.
             unsafe { copy.read(loose, shared, N::WIDTH, V::ON) };
         }
         let mut carry = [[N::zero(); 3]; 4];
         let mut report = Report { failed: Failed(None), power: N::zero() };
         for (b, &shape) in item.shapes().iter().enumerate() {
             let shape = shape_at::<N, F>(elements, shape);
-            // SAFETY: the promise of `Kernel::forces`; an item has an entry of the table of shapes for every batch.
+            // SAFETY: the promise of `ElementPass::forces`; an item has an entry of the table of shapes for every batch.
             let at = unsafe { corners::<N>(item, b, shared, copy, V::ON) };
             let force = F::force(&law, &viscosity, &shape, &at.x, &at.v);
             // SAFETY: as above, and batches come in order.

@@ -1,9 +1,7 @@
 //! What the threads of a step write, and the contract under which they do.
 
-use super::plan::Plan;
 use super::state::Field;
-use super::sums::{LineContact, LineSums};
-use crate::engine::SurfaceSum;
+use super::sums::{LineContact, LineSums, SurfaceSum};
 use crate::physics::lanes::WIDEST;
 use crate::physics::scalar::Real;
 use std::marker::PhantomData;
@@ -26,18 +24,31 @@ pub struct Arrays<T> {
     pub contact: [Vec<LineContact>; 2],
 }
 
+/// Lengths of [`Arrays`], as a layout asks for them.
+#[derive(Debug, Clone, Copy)]
+pub struct Sizes {
+    /// Numbers by place, and of all slots.
+    pub places: usize,
+    pub forces: usize,
+    pub items: usize,
+    pub lines: usize,
+    /// Lines that can touch the road, and their nodes that can.
+    pub surface_lines: usize,
+    pub surface_nodes: usize,
+}
+
 impl<T: Real> Arrays<T> {
-    /// Zeros for a plan with so many surface nodes.
-    pub fn new(plan: &Plan, surface_nodes: usize) -> Self {
+    /// Zeros.
+    pub fn new(sizes: &Sizes) -> Self {
         Arrays {
-            x: Field::zeros(plan.places),
-            v: Field::zeros(plan.places),
-            f: Field::zeros(plan.forces),
-            power: vec![0.0; plan.items.len() * WIDEST],
-            sums: vec![LineSums::default(); plan.lines.len()],
-            surface: vec![SurfaceSum::default(); surface_nodes],
-            last_touch: vec![0; surface_nodes],
-            contact: [0, 1].map(|_| vec![LineContact::default(); plan.surface_lines]),
+            x: Field::zeros(sizes.places),
+            v: Field::zeros(sizes.places),
+            f: Field::zeros(sizes.forces),
+            power: vec![0.0; sizes.items * WIDEST],
+            sums: vec![LineSums::default(); sizes.lines],
+            surface: vec![SurfaceSum::default(); sizes.surface_nodes],
+            last_touch: vec![0; sizes.surface_nodes],
+            contact: [0, 1].map(|_| vec![LineContact::default(); sizes.surface_lines]),
         }
     }
 
@@ -63,7 +74,7 @@ impl<T: Real> Arrays<T> {
 /// # The contract
 ///
 /// Who dereferences them is a member of one team that all goes through the same phases, with a meeting
-/// ([`super::team::SpinBarrier`]) between one phase and the next, and touches nothing but this:
+/// (a barrier) between one phase and the next, and touches nothing but this:
 ///
 /// | phase | a member, for | reads | writes |
 /// |---|---|---|---|
@@ -75,11 +86,11 @@ impl<T: Real> Arrays<T> {
 ///
 /// The phase after a step is the early one of the next step, which writes the other half of `contact`.
 ///
-/// [`Plan`] makes that enough. A group belongs to one member, and no two items' `power` is the same, so forces of
+/// The layout makes that enough. A group belongs to one member, and no two items' `power` is the same, so forces of
 /// different members never meet. An early line is touched by items of its own member alone, and by none of them after
 /// it has moved, so nobody reads nodes that move. A slot passes from one line to another within one member's share, once
 /// the first line has moved; late lines keep theirs. Every line moves once, in one share. Places, slots and indices
-/// lie within the arrays, lanes beyond a line's end included, because [`Arrays::new`] takes their lengths from the same plan.
+/// lie within the arrays, lanes beyond a line's end included, because [`Arrays::new`] takes their lengths from the same layout.
 /// Tests: `cpu/plan/slots.rs` follows every number through a step; `tests/determinism.rs` compares the bits of threads.
 pub struct Shared<'a, T> {
     pub x: [*mut T; 3],

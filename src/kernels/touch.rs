@@ -1,11 +1,10 @@
 //! Contact of the few nodes of a batch that would end inside the road.
 
 use super::books::Moved;
-use super::layout::NodeBatch;
+use super::conditions::Conditions;
+use super::layout::{NodeBatch, Nodes};
 use super::shared::Shared;
 use super::sums::{LineContact, LineSums};
-use super::tables::Nodes;
-use super::world::Conditions;
 use crate::physics::contact::{self, Touch};
 use crate::physics::lanes::{Lanes, WIDEST};
 use crate::physics::node;

@@ -1,7 +1,7 @@
 //! Work and impulse of every force on a line, in lanes while it is worked on.
 
+use super::conditions::Conditions;
 use super::sums::LineSums;
-use super::world::Conditions;
 use crate::physics::lanes::Lanes;
 use crate::physics::node::{self, Loads, Prediction};
 use crate::physics::scalar::Scalar;

@@ -1,7 +1,8 @@
 //! What the passes read: items of elements, and lines of nodes, with the places of their numbers in memory. Made by
-//! [`super::plan`], constant afterwards.
+//! whoever lays out a body, constant afterwards.
 
 use super::rows::Rows;
+use super::state::{Aligned, Field};
 use crate::physics::lanes::WIDEST;
 
 /// At most as many elements as there are lanes, with nothing in common.
@@ -80,4 +81,18 @@ pub struct Line {
     pub plain: bool,
     /// Its number among the lines that can touch the road.
     pub surface: Option<usize>,
+}
+
+/// Constant data of the node pass.
+pub struct Nodes<T> {
+    pub lines: Vec<Line>,
+    /// By place.
+    pub mass: Aligned<T>,
+    pub inverse_mass: Aligned<T>,
+    /// Number among the surface nodes; this and the arms by [`NodeBatch::boundary`] and lane.
+    pub surface_of: Vec<u32>,
+    /// Rim nodes' positions relative to the axle in the reference orientation; zero for others.
+    pub rim_arms: Field<T>,
+    /// One over the area of each surface node [1/m2], as of the last sample; empty unless friction looks at pressure.
+    pub inverse_area: Vec<T>,
 }

@@ -2,7 +2,7 @@
 
 use super::dual::Dual;
 use crate::physics::element::{Class, Compose, Composition, Corners, Energy, Formulation, Shape};
-use crate::physics::lanes::{InLanes, Instructions, Lanes, Level};
+use crate::physics::lanes::{InLanes, Instructions, Lanes};
 use crate::physics::material::{Hyperelastic, Viscosity};
 use std::marker::PhantomData;
 
@@ -20,20 +20,29 @@ pub struct ElementForce {
 /// Tangent of an element: `rows[a][i][3 b + j]` = df_a,i / dx_b,j [N/m], the change of velocity with position included.
 pub type Tangent = [[[f64; 24]; 3]; 8];
 
-/// An element formulation with its law, for numbers and for numbers with derivatives.
-pub trait Kernel: Send + Sync {
-    fn force(&self, class: usize, x: &Corners<f64>, v: &Corners<f64>) -> ElementForce;
+/// Forces and energies of single elements in plain numbers.
+pub trait ElementForces: Send + Sync {
+    fn force(&self, class: &Class<f64>, x: &Corners<f64>, v: &Corners<f64>) -> ElementForce;
+    fn energy(&self, class: &Class<f64>, x: &Corners<f64>) -> Energy<f64>;
+}
+
+/// Tangents of single elements, for certain instructions.
+pub trait TangentPass: Send + Sync {
     /// The tangent where v depends on x by dv_a = `rate[a]` dx_a [1/s].
-    fn tangent(&self, class: usize, x: &Corners<f64>, v: &Corners<f64>, rate: &[f64; 8]) -> Box<Tangent>;
-    fn energy(&self, class: usize, x: &Corners<f64>) -> Energy<f64>;
+    fn tangent(
+        &self,
+        class: &Class<f64>,
+        x: &Corners<f64>,
+        v: &Corners<f64>,
+        rate: &[f64; 8],
+    ) -> Box<Tangent>;
 }
 
 /// A formulation with its law, whose scalar is chosen where it is called.
-struct Composed<F, L, V> {
+struct Composed<F, L, V, I> {
     law: L,
     viscosity: V,
-    classes: Vec<Class<f64>>,
-    level: Level,
+    instructions: I,
     kind: PhantomData<F>,
 }
 
@@ -90,39 +99,59 @@ impl<F: Formulation, L: Hyperelastic, V: Viscosity> InLanes<f64> for Columns<'_,
     }
 }
 
-impl<F: Formulation, L: Hyperelastic, V: Viscosity> Kernel for Composed<F, L, V> {
-    fn force(&self, class: usize, x: &Corners<f64>, v: &Corners<f64>) -> ElementForce {
-        let force = F::force(&self.law, &self.viscosity, &self.classes[class], x, v);
+impl<F: Formulation, L: Hyperelastic, V: Viscosity> ElementForces for Composed<F, L, V, ()> {
+    fn force(&self, class: &Class<f64>, x: &Corners<f64>, v: &Corners<f64>) -> ElementForce {
+        let force = F::force(&self.law, &self.viscosity, class, x, v);
         ElementForce { f: force.f, min_j: force.min_j, viscous_power: force.viscous_power }
     }
 
-    fn tangent(&self, class: usize, x: &Corners<f64>, v: &Corners<f64>, rate: &[f64; 8]) -> Box<Tangent> {
+    fn energy(&self, class: &Class<f64>, x: &Corners<f64>) -> Energy<f64> {
+        F::energy(&self.law, class, x)
+    }
+}
+
+impl<F: Formulation, L: Hyperelastic, V: Viscosity, I: Instructions> TangentPass for Composed<F, L, V, I> {
+    fn tangent(
+        &self,
+        class: &Class<f64>,
+        x: &Corners<f64>,
+        v: &Corners<f64>,
+        rate: &[f64; 8],
+    ) -> Box<Tangent> {
         let mut rows = Box::new([[[0.0; 24]; 3]; 8]);
         let Composed { law, viscosity, .. } = *self;
-        let (class, kind) = (&self.classes[class], PhantomData::<F>);
-        self.level.call(Columns { law, viscosity, class, x, v, rate, rows: &mut rows, kind });
+        let kind = PhantomData::<F>;
+        self.instructions.call(Columns { law, viscosity, class, x, v, rate, rows: &mut rows, kind });
         rows
     }
+}
 
-    fn energy(&self, class: usize, x: &Corners<f64>) -> Energy<f64> {
-        F::energy(&self.law, &self.classes[class], x)
+/// Forces of this composition, in plain numbers.
+pub fn forces(composition: &Composition) -> Box<dyn ElementForces> {
+    composition.visit(Forces)
+}
+
+struct Forces;
+
+impl Compose for Forces {
+    type Output = Box<dyn ElementForces>;
+
+    fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, viscosity: V) -> Self::Output {
+        Box::new(Composed::<F, L, V, ()> { law, viscosity, instructions: (), kind: PhantomData })
     }
 }
 
-/// Composes the kernel of a model.
-pub fn compose(composition: &Composition, classes: &[Class<f64>]) -> Box<dyn Kernel> {
-    composition.visit(Build { classes })
+/// Tangents of this composition, for these instructions.
+pub fn compose(instructions: impl Instructions, composition: &Composition) -> Box<dyn TangentPass> {
+    composition.visit(Build(instructions))
 }
 
-struct Build<'a> {
-    classes: &'a [Class<f64>],
-}
+struct Build<I>(I);
 
-impl Compose for Build<'_> {
-    type Output = Box<dyn Kernel>;
+impl<I: Instructions> Compose for Build<I> {
+    type Output = Box<dyn TangentPass>;
 
     fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, viscosity: V) -> Self::Output {
-        let (classes, level) = (self.classes.to_vec(), Level::detect());
-        Box::new(Composed::<F, L, V> { law, viscosity, classes, level, kind: PhantomData })
+        Box::new(Composed::<F, L, V, I> { law, viscosity, instructions: self.0, kind: PhantomData })
     }
 }
