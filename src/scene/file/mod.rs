@@ -35,12 +35,15 @@
 //! grading = [1, 1, 1]                 # default; size of the last element over that of the first, along x, y, z
 //!
 //! [body.material]
-//! law = "mooney-rivlin"               # default | "neo-hookean" (g2 = 0) | "mooney-rivlin-eq4"
+//! law = "mooney-rivlin"               # default | "neo-hookean" (g2 = 0) | "mooney-rivlin-eq4" | "yeoh"
 //! shear_modulus = "2.64 MPa"          # G > 0, with
 //! bulk_modulus = "65.1 MPa"           # kappa > 0; or instead the law's own constants:
 //! g0 = "65.1 MPa"                     #   kappa = g0 (eq4: g0 + 2/3 G)
 //! g1 = "2.64 MPa"                     #   G = g1 + g2
 //! g2 = "0 MPa"                        #   default 0
+//! c10 = "1.32 MPa"                    # of "yeoh": G = 2 c10, W = sum C_i0 (I1b - 3)^i; with bulk_modulus
+//! c20 = "-0.1 MPa"                    #   default 0
+//! c30 = "0.02 MPa"                    #   default 0
 //! viscosity = "20 Pa s"               # Kelvin-Voigt shear viscosity, >= 0; default 0: none
 //!
 //! [rim]                               # optional: these nodes are one rigid body
@@ -56,10 +59,22 @@
 //! point = ["0 m", "0 m", "0 m"]       # default the origin
 //! normal = [0, 0, 1]                  # default +z; any length but zero
 //! velocity = ["0 m/s", "0 m/s", "0 m/s"]   # in the plane; default at rest
+//! # or
+//! shape = "drum"                      # a plane bent about an axis
+//! point = ["0 m", "0 m", "0 m"]       # of its surface, default the origin
+//! normal = [0, 0, 1]                  # there, default +z
+//! axis = [0, 1, 0]                    # along the drum's axis, square to the normal; default +y
+//! radius = "0.85 m"
+//! side = "outside"                    # default | "inside": where the body is
+//! angular_velocity = "30 rad/s"       # about the axis (right hand); default at rest
 //!
 //! [friction]                          # optional, needs a road; constant over the scene
 //! law = "coulomb"                     # default
 //! coefficient = 1.0                   # mu >= 0; 0: frictionless
+//! # or
+//! law = "static-kinetic"              # mu of what stands, and of what slides
+//! static = 1.0
+//! kinetic = 0.6
 //! # or
 //! law = "viscous"                     # mu = slope v
 //! slope = "0.5 s/m"
