@@ -11,33 +11,20 @@ use hexroll::gpu::compose::scan::scan;
 use hexroll::gpu::compose::{Choice, Composed as Program, Kernel, PARTS, RimKind};
 use hexroll::gpu::layout::{self, Real, Wgsl};
 use hexroll::gpu::{Counts, Precision};
-use hexroll::physics::friction::{Coulomb, PressureVelocity, Stribeck, Viscous};
 use hexroll::scene::{Element, Friction, Law};
 use naga::{ArraySize, Block, Expression, Function, GlobalVariable, Handle, Module, Statement, TypeInner};
 
-/// Road, friction, held components.
-const ROADS: [(Option<&str>, Option<Friction>, bool); 6] = [
-    (None, None, false),
-    (Some("plane"), None, false),
-    (Some("plane"), Some(Friction::Coulomb(Coulomb { mu: 1.0 })), false),
-    (Some("plane"), Some(Friction::Viscous(Viscous { slope: 1.0 })), true),
-    (
-        Some("plane"),
-        Some(Friction::Stribeck(Stribeck { still: 1.0, kinetic: 1.0, speed: 1.0, slope: 1.0 })),
-        false,
-    ),
-    (
-        Some("plane"),
-        Some(Friction::PressureVelocity(PressureVelocity {
-            a: 1.0,
-            b: 1.0,
-            pressure: 1.0,
-            c: 1.0,
-            speed: 1.0,
-        })),
-        true,
-    ),
-];
+/// Road, friction, held components: no road, and every road and every friction law with another of the others.
+fn roads() -> Vec<(Option<&'static str>, Option<Friction>, bool)> {
+    let frictions = Friction::KINDS.iter().map(|kind| Some((kind.example)()));
+    let with_road = std::iter::once(None).chain(frictions).enumerate();
+    let named =
+        |(k, friction): (usize, Option<Friction>)| (Some(ROADS[k % ROADS.len()]), friction, k % 3 == 2);
+    std::iter::once((None, None, false)).chain(with_road.map(named)).collect()
+}
+
+/// Roads by their names in scene files.
+const ROADS: [&str; 2] = ["plane", "drum"];
 
 fn choices() -> Vec<Choice> {
     let elements = [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
@@ -46,7 +33,7 @@ fn choices() -> Vec<Choice> {
     for element in elements {
         for &law in &laws {
             for rim in [RimKind::None, RimKind::Prescribed, RimKind::Free] {
-                for (road, friction, held) in ROADS {
+                for (road, friction, held) in roads() {
                     for (bits, precision) in (0..8).flat_map(|b| Precision::ALL.map(|p| (b, p))) {
                         let bit = |k: u32| bits >> k & 1 == 1;
                         let (viscous, gravity, damping) = (bit(0), bit(1), bit(2));
@@ -94,12 +81,13 @@ fn composed() -> &'static [Composed] {
         let mut seen = HashSet::new();
         let all = choices().into_iter().flat_map(|c| Kernel::ALL.map(|k| (c, k)));
         let new = |(choice, kernel): (Choice, Kernel)| {
-            if !compiled(&choice, kernel) {
+            let named = |e: hexroll::Error| -> Program { panic!("{kernel:?} of {choice:?}: {e}") };
+            if !compiled(&choice, kernel) || !seen.insert(choice.draft(kernel).expect("names are there")) {
                 return None;
             }
-            let program = choice.compose(kernel).unwrap_or_else(|e| panic!("{kernel:?} of {choice:?}: {e}"));
+            let program = choice.compose(kernel).unwrap_or_else(named);
             let module = parse(&program.text);
-            seen.insert(program.text.clone()).then_some(Composed { choice, kernel, program, module })
+            Some(Composed { choice, kernel, program, module })
         };
         all.filter_map(new).collect()
     });

@@ -13,7 +13,4 @@ pub const RIGS: [(&str, &str); 2] = [
 ];
 
 /// Where circles of files may be larger, or cross folders: the beginning of all their paths.
-pub const CIRCLES: [(&str, &str); 2] = [
-    ("gpu/", "composition, device state and stepping are still being parted"),
-    ("physics/", "`Scalar` names the lanes that it is implemented for"),
-];
+pub const CIRCLES: [(&str, &str); 1] = [("physics/", "`Scalar` names the lanes that it is implemented for")];

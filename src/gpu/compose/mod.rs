@@ -29,6 +29,14 @@ include!(concat!(env!("OUT_DIR"), "/parts.rs"));
 static LIBRARY: LazyLock<std::result::Result<BTreeMap<&'static str, Part>, Fault>> =
     LazyLock::new(|| PARTS.iter().map(|(name, text)| Ok((*name, Part::new(name, text)?))).collect());
 
+/// The structs that host and shaders share, in single and in double precision.
+static STRUCTS: LazyLock<[std::result::Result<Part, Fault>; 2]> = LazyLock::new(|| {
+    [Real::Single, Real::Double].map(|real| {
+        let text: String = layout::all(real).iter().map(|s| s.text.as_str()).collect();
+        Part::new("layout", &text)
+    })
+});
+
 /// Entry points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kernel {
@@ -145,6 +153,15 @@ impl Choice {
         compose(entry, &roles::filled(self, kernel), self.precision.real())
     }
 
+    /// Its WGSL before buffers have their numbers: choices that have it in common have the program in common.
+    ///
+    /// # Errors
+    /// Those of [`Choice::compose`] that are about names.
+    pub fn draft(&self, kernel: Kernel) -> Result<String> {
+        let entry = kernel.entry(self.precision);
+        Ok(join(&reach(entry, &roles::filled(self, kernel), self.precision.real())?, &[]))
+    }
+
     /// What a node needs that has neither road nor rim.
     fn interior(&self) -> Choice {
         Choice { road: None, friction: None, rim: RimKind::None, ..*self }
@@ -164,29 +181,30 @@ pub fn plain(entry: &str, real: Real) -> Result<Composed> {
     compose(entry, &[roles::real(real)], real)
 }
 
-fn fault(entry: &str, detail: impl std::fmt::Display) -> Error {
+fn fault_of(entry: &str, detail: impl std::fmt::Display) -> Error {
     Error::Device { adapter: "shader composition".into(), detail: format!("{entry}: {detail}") }
 }
 
-fn compose(entry: &str, filled: &[Filled], real: Real) -> Result<Composed> {
-    let fail = |detail: String| fault(entry, detail);
-    let library = LIBRARY.as_ref().map_err(|e| fail(e.to_string()))?;
-    let structs: String = layout::all(real).iter().map(|s| s.text.as_str()).collect();
-    let structs = Part::new("layout", &structs).map_err(|e| fail(e.to_string()))?;
-    let get = |name: &str| library.get(name).ok_or_else(|| fail(Fault::NoPart(name.into()).to_string()));
+/// What an entry point reaches, with these variants at hand.
+fn reach(entry: &str, filled: &[Filled], real: Real) -> Result<Vec<Reached<'static>>> {
+    let fail = |fault: &Fault| fault_of(entry, fault);
+    let library = LIBRARY.as_ref().map_err(fail)?;
+    let structs = STRUCTS[usize::from(real == Real::Double)].as_ref().map_err(fail)?;
+    let get = |name: &str| library.get(name).ok_or_else(|| fail(&Fault::NoPart(name.into())));
     let mut at_hand = filled.iter().map(|role| get(&roles::part(role))).collect::<Result<Vec<_>>>()?;
     at_hand.extend(library.iter().filter(|(name, _)| name.starts_with("lib/")).map(|(_, part)| part));
-    at_hand.push(&structs);
-    let reached = closure::close(get(entry)?, &at_hand, is_of_wgsl).map_err(|e| fail(e.to_string()))?;
+    at_hand.push(structs);
+    closure::close(get(entry)?, &at_hand, is_of_wgsl).map_err(|fault| fail(&fault))
+}
+
+fn compose(entry: &str, filled: &[Filled], real: Real) -> Result<Composed> {
+    let fail = |detail: String| fault_of(entry, detail);
+    let reached = reach(entry, filled, real)?;
     let draft = join(&reached, &[]);
     let mut module = naga::front::wgsl::parse_str(&draft).map_err(|e| fail(e.emit_to_string(&draft)))?;
     naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
-    let buffers: Vec<&str> = reached
-        .iter()
-        .flat_map(|(_, own)| own.iter())
-        .filter(|d| d.buffer)
-        .map(|d| d.name.as_str())
-        .collect();
+    let declared = reached.iter().flat_map(|(_, own)| own).filter(|d| d.buffer);
+    let buffers: Vec<&str> = declared.map(|d| d.name.as_str()).collect();
     let numbered = numbering::number(&mut module, &buffers, fail)?;
     Validator::new(ValidationFlags::all(), capabilities())
         .validate(&module)
