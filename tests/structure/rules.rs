@@ -13,4 +13,5 @@ pub const RIGS: [(&str, &str); 2] = [
 ];
 
 /// Where circles of files may be larger, or cross folders: the beginning of all their paths.
-pub const CIRCLES: [(&str, &str); 1] = [("physics/", "`Scalar` names the lanes that it is implemented for")];
+pub const CIRCLES: [(&str, &str); 1] =
+    [("physics/", "a `Real` says which vectors hold it, and vectors are of a `Real`: scalar.rs and lanes/")];

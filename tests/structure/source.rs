@@ -141,13 +141,12 @@ impl Sources {
             return None;
         }
         let module = &path[..at];
-        if let Some(to) = path.get(at).and_then(|name| self.facades.get(module)?.get(name)) {
-            if depth < 8 && to.as_slice() != path {
-                let rest: Vec<String> = to.iter().chain(&path[at + 1..]).cloned().collect();
-                return self.followed(&rest, depth + 1).or(Some(&self.files[module].path));
-            }
-        }
-        Some(&self.files[module].path)
+        let here = Some(self.files[module].path.as_str());
+        // Eight are more than names are ever handed on.
+        let handed = path.get(at).and_then(|name| self.facades.get(module)?.get(name)).filter(|_| depth < 8);
+        let Some(to) = handed.filter(|to| to.as_slice() != path) else { return here };
+        let rest: Vec<String> = to.iter().chain(&path[at + 1..]).cloned().collect();
+        self.followed(&rest, depth + 1).or(here)
     }
 
     fn handed_on(&self, module: &[String], name: &str) -> bool {
