@@ -10,19 +10,13 @@ use hexroll::bench::wheel::{Roll, Wheel};
 use hexroll::cpu::{Precision, engine_at};
 use hexroll::model::Model;
 use hexroll::physics::lanes::Level;
-use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean};
+use hexroll::rig::laws;
 use hexroll::run::stability;
-use hexroll::scene::{Law, Scene};
+use hexroll::scene::Scene;
 use std::time::Duration;
 
 const PRECISIONS: [(Precision, &str); 2] = [(Precision::F64, "f64"), (Precision::F32, "f32")];
 const ELEMENTS: [&str; 3] = ["q1p0", "uniform-gradient", "full"];
-/// The rubber, and two laws near it that need I2 or a logarithmic volume term.
-const LAWS: [Law; 3] = [
-    Law::NeoHookean(NeoHookean { g0: 65.1e6, g1: 2.64e6 }),
-    Law::MooneyRivlin(MooneyRivlin { g0: 65.1e6, g1: 2.0e6, g2: 0.64e6 }),
-    Law::MooneyRivlinEq4(MooneyRivlinEq4 { g0: 63.34e6, g1: 2.0e6, g2: 0.64e6 }),
-];
 
 fn scene(elements: usize, element: &str, viscosity: Option<f64>) -> Scene {
     Wheel { elements, element, contact: true, viscosity }.scene().expect("the shipped scene reads")
@@ -31,7 +25,7 @@ fn scene(elements: usize, element: &str, viscosity: Option<f64>) -> Scene {
 fn force(c: &mut Criterion) {
     let mut group = c.benchmark_group("force");
     for element in ELEMENTS {
-        for law in LAWS {
+        for law in laws() {
             let mut scene = scene(7_040, element, None);
             scene.body.law = law;
             let model = Model::new(&scene).expect("the wheel meshes");

@@ -7,8 +7,8 @@ set -uo pipefail
 cd "$(dirname "$0")/.."
 
 cargo build --release --locked || exit 1
-# Tests too long for every day (solver tables, whole implicit rolling runs, fine meshes) are marked as ignored.
-cargo test --release --locked --test implicit -- --ignored --nocapture --test-threads 1 || exit 1
+# Tests too long for every day (large linear systems, whole implicit rolling runs, fine meshes) are marked as ignored.
+cargo test --release --locked --test implicit -- --ignored --test-threads 1 || exit 1
 cargo test --release --locked --test rolling -- --ignored || exit 1
 cargo test --release --locked --test verification --test hard_cases -- --ignored || exit 1
 hexroll() { cargo run --release --locked --quiet -- "$@"; }

@@ -18,6 +18,7 @@ pub mod plot;
 pub mod record;
 pub mod render;
 pub mod report;
+pub mod rig;
 pub mod run;
 pub mod scene;
 pub mod study;

@@ -1,67 +1,132 @@
 //! Every kernel holds what its scene uses and nothing else. Proved on the composed text, without an adapter.
 //!
-//! The parts that decide a kernel's text are few: all combinations of 3 elements, 3 laws, 3 rims, road and friction law,
-//! viscosity, gravity, damping, held components and precision give some 2,000 different texts, and every one of them
-//! is checked.
+//! What is composed, and why not all: [`choices`].
 
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::ops::Range;
+use std::path::Path;
 use std::sync::LazyLock;
 
+use hexroll::engine::StageSetup;
+use hexroll::gpu::chains::{self, Chains};
 use hexroll::gpu::compose::scan::scan;
 use hexroll::gpu::compose::{Choice, Composed as Program, Kernel, PARTS, RimKind};
 use hexroll::gpu::layout::{self, Real, Wgsl};
-use hexroll::gpu::{Counts, Precision};
-use hexroll::scene::{Element, Friction, Law};
+use hexroll::gpu::{Counts, Precision, order};
+use hexroll::model::Model;
+use hexroll::rig::{ELEMENTS, Random, laws, shipped};
+use hexroll::scene::{Drive, Friction, Law};
 use naga::{ArraySize, Block, Expression, Function, GlobalVariable, Handle, Module, Statement, TypeInner};
 
-/// Road, friction, held components: no road, and every road and every friction law with another of the others.
-fn roads() -> Vec<(Option<&'static str>, Option<Friction>, bool)> {
-    let frictions = Friction::KINDS.iter().map(|kind| Some((kind.example)()));
-    let with_road = std::iter::once(None).chain(frictions).enumerate();
-    let named =
-        |(k, friction): (usize, Option<Friction>)| (Some(ROADS[k % ROADS.len()]), friction, k % 3 == 2);
-    std::iter::once((None, None, false)).chain(with_road.map(named)).collect()
+/// No road, and every road without friction and with every friction law.
+fn roads() -> Vec<(Option<&'static str>, Option<Friction>)> {
+    let frictions = || Friction::KINDS.iter().map(|kind| Some((kind.example)()));
+    let of = |road| std::iter::once(None).chain(frictions()).map(move |friction| (Some(road), friction));
+    std::iter::once((None, None)).chain(ROADS.into_iter().flat_map(of)).collect()
 }
 
-/// Roads by their names in scene files.
+/// Roads by their names in scenes.
 const ROADS: [&str; 2] = ["plane", "drum"];
 
-fn choices() -> Vec<Choice> {
-    let elements = [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
-    let laws: Vec<Law> = Law::KINDS.iter().map(|kind| (kind.example)(1.0, 10.0)).collect();
-    let mut all = Vec::new();
-    for element in elements {
-        for &law in &laws {
-            for rim in [RimKind::None, RimKind::Prescribed, RimKind::Free] {
-                for (road, friction, held) in roads() {
-                    for (bits, precision) in (0..8).flat_map(|b| Precision::ALL.map(|p| (b, p))) {
-                        let bit = |k: u32| bits >> k & 1 == 1;
-                        let (viscous, gravity, damping) = (bit(0), bit(1), bit(2));
-                        // Double precision has all of what single has: with none of these, and with all.
-                        if precision == Precision::F64 && !(bits == 0 || bits == 7) {
-                            continue;
-                        }
-                        let choice = Choice {
-                            element,
-                            law,
-                            viscous,
-                            road,
-                            friction,
-                            held,
-                            gravity,
-                            damping,
-                            rim,
-                            precision,
-                            // Both, each with everything else.
-                            extruded: gravity,
-                            shared_classes: gravity,
-                            lattice: damping,
-                            joined: damping && gravity,
-                        };
-                        all.push(choice);
-                    }
-                }
-            }
+/// How many ways there are to decide each thing, in the order of [`choice`]: five that an element is made of, the place of
+/// elements and nodes (table, lattice, lattice whose chains are joined), five that a node is made of, the precision.
+fn ways() -> Decided {
+    [ELEMENTS.len(), Law::KINDS.len(), 2, 2, 2, 3, roads().len(), 2, 2, 2, 3, Precision::ALL.len()]
+}
+
+const ELEMENT: Range<usize> = 0..5;
+const PLACE: Range<usize> = 5..6;
+const NODE: Range<usize> = 6..11;
+
+/// Which way each thing is decided.
+type Decided = [usize; 12];
+
+fn choice(decided: &Decided) -> Choice {
+    let [element, law, extruded, shared, viscous, place, road, held, gravity, damping, rim, precision] =
+        *decided;
+    let (road, friction) = roads()[road];
+    Choice {
+        element: ELEMENTS[element],
+        law: laws().nth(law).unwrap(),
+        extruded: extruded == 1,
+        shared_classes: shared == 1,
+        viscous: viscous == 1,
+        lattice: place > 0,
+        joined: place > 1,
+        road,
+        friction,
+        held: held == 1,
+        gravity: gravity == 1,
+        damping: damping == 1,
+        rim: [RimKind::None, RimKind::Prescribed, RimKind::Free][rim],
+        precision: Precision::ALL[precision],
+    }
+}
+
+/// What a kernel's program depends on, of all that is decided.
+fn deciding(kernel: Kernel) -> Vec<usize> {
+    match kernel {
+        Kernel::ElementForce | Kernel::ElementEnergy => [0, 1, 2, 3, 4, 5, 11].into(),
+        Kernel::Boundary | Kernel::NodeProbe => (5..12).collect(),
+        // Neither road nor rim.
+        Kernel::Node => [5, 7, 8, 9, 11].into(),
+        Kernel::Rim => [5, 8, 11].into(),
+        Kernel::Gather => [5, 11].into(),
+        Kernel::Resident => (0..12).collect(),
+        Kernel::SurfaceState | Kernel::Reduce | Kernel::Rebase | Kernel::CheckSums => [11].into(),
+    }
+}
+
+/// What decides this kernel of a choice.
+fn key(kernel: Kernel, decided: &Decided) -> (Kernel, Vec<usize>) {
+    (kernel, deciding(kernel).into_iter().map(|k| decided[k]).collect())
+}
+
+/// Every way to decide a range of things, the others 0.
+fn product(range: Range<usize>) -> Vec<Decided> {
+    let ways = ways();
+    range.fold(vec![[0; 12]], |all, k| {
+        let each = |decided: Decided| {
+            (0..ways[k]).map(move |way| {
+                let mut decided = decided;
+                decided[k] = way;
+                decided
+            })
+        };
+        all.into_iter().flat_map(each).collect()
+    })
+}
+
+/// Of all choices, in random order, those that bring a new pair: any two things are decided in any two ways by one of them.
+fn pairwise() -> Vec<Decided> {
+    let mut random = Random::new(1);
+    let mut all: Vec<(f64, Decided)> = product(0..12).into_iter().map(|d| (random.signed(), d)).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut met = HashSet::new();
+    let mut brings = |d: &Decided| {
+        let pairs = (0..12).flat_map(|a| (0..a).map(move |b| (a, b)));
+        pairs.filter(|&(a, b)| met.insert((a, b, d[a], d[b]))).count() > 0
+    };
+    all.into_iter().map(|(_, decided)| decided).filter(|decided| brings(decided)).collect()
+}
+
+/// What is composed here. All is too much: some 300,000 choices, and the resident kernel, which depends on everything, has a
+/// different program for nearly every one, at some milliseconds each.
+///
+/// No other kernel depends on both what an element and what a node is made of ([`deciding`]). So in single precision every
+/// element and every node is taken, in each place, with a partner that changes from one to the next: these kernels meet
+/// the full product of what they depend on. The resident kernel, and the other precisions, which decide how numbers are
+/// written, meet every pair.
+fn choices() -> Vec<(Decided, Kernel)> {
+    let (elements, nodes) = (product(ELEMENT), product(NODE));
+    assert!(nodes.len() >= elements.len(), "every element meets a node");
+    let mut all: Vec<_> = pairwise().into_iter().flat_map(|d| Kernel::ALL.map(|k| (d, k))).collect();
+    for (shift, place) in product(PLACE).iter().enumerate() {
+        for (k, node) in nodes.iter().enumerate() {
+            let element = &elements[(k + shift) % elements.len()];
+            let decided = std::array::from_fn(|d| element[d] + place[d] + node[d]);
+            let apart = Kernel::ALL.into_iter().filter(|kernel| *kernel != Kernel::Resident);
+            all.extend(apart.map(|kernel| (decided, kernel)));
         }
     }
     all
@@ -78,20 +143,74 @@ struct Composed {
 /// Every different program, with a choice that makes it.
 fn composed() -> &'static [Composed] {
     static ALL: LazyLock<Vec<Composed>> = LazyLock::new(|| {
-        let mut seen = HashSet::new();
-        let all = choices().into_iter().flat_map(|c| Kernel::ALL.map(|k| (c, k)));
-        let new = |(choice, kernel): (Choice, Kernel)| {
-            let named = |e: hexroll::Error| -> Program { panic!("{kernel:?} of {choice:?}: {e}") };
-            if !compiled(&choice, kernel) || !seen.insert(choice.draft(kernel).expect("names are there")) {
+        let (mut keys, mut texts) = (HashSet::new(), HashSet::new());
+        let new = |(decided, kernel): (Decided, Kernel)| {
+            let choice = choice(&decided);
+            if !compiled(&choice, kernel) || !keys.insert(key(kernel, &decided)) {
                 return None;
             }
-            let program = choice.compose(kernel).unwrap_or_else(named);
+            let program = compose(&choice, kernel);
             let module = parse(&program.text);
-            Some(Composed { choice, kernel, program, module })
+            texts.insert(program.text.clone()).then_some(Composed { choice, kernel, program, module })
         };
-        all.filter_map(new).collect()
+        choices().into_iter().filter_map(new).collect()
     });
     &ALL
+}
+
+fn compose(choice: &Choice, kernel: Kernel) -> Program {
+    choice.compose(kernel).unwrap_or_else(|e| panic!("{kernel:?} of {choice:?}: {e}"))
+}
+
+/// A kernel depends on nothing but what [`deciding`] says: other choices that decide that alike make the same program.
+#[test]
+fn kernels_depend_on_what_decides_them() {
+    let mut texts: HashMap<(Kernel, Vec<usize>), String> = HashMap::new();
+    for decided in pairwise() {
+        for kernel in Kernel::ALL {
+            // Everything decides the resident kernel.
+            if kernel == Kernel::Resident || !compiled(&choice(&decided), kernel) {
+                continue;
+            }
+            let text = compose(&choice(&decided), kernel).text;
+            let first = texts.entry(key(kernel, &decided)).or_insert_with(|| text.clone());
+            assert_eq!(*first, text, "{kernel:?} depends on more than {:?}", deciding(kernel));
+        }
+    }
+}
+
+/// Every shipped scene, meshed, numbered and laid out as for real hardware: its programs in every stage and precision compose,
+/// and in single precision those of the separate passes are among the programs of this file.
+#[test]
+fn programs_of_every_shipped_scene_compose_as_on_real_hardware() {
+    let known: HashSet<&str> = composed().iter().map(|c| c.program.text.as_str()).collect();
+    let (mut joined, mut wheels) = (0, 0);
+    for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")).unwrap() {
+        let path = entry.unwrap().path();
+        let stem = path.file_stem().unwrap().to_str().unwrap();
+        let scene = shipped(stem, &[""; 0]);
+        let model = Model::new(&scene).unwrap();
+        let ordered = order::ordered(&model);
+        let chains = Chains::new(&ordered.model, chains::longest(false, model.element_count()), true);
+        for precision in Precision::ALL {
+            let of_scene = hexroll::gpu::choice(&ordered.model, &scene, &chains, precision);
+            joined += usize::from(of_scene.joined);
+            wheels += usize::from(stem.starts_with("lat100") && of_scene.joined && of_scene.lattice);
+            for stage in &scene.stages {
+                let free = stage.rim.drives().map(|d| match d {
+                    Drive::Free { mass, .. } => Some(mass),
+                    _ => None,
+                });
+                let choice = of_scene.for_stage(&StageSetup { mass_damping: stage.mass_damping, free });
+                for kernel in Kernel::ALL.into_iter().filter(|k| compiled(&choice, *k)) {
+                    let text = compose(&choice, kernel).text;
+                    let listed = precision != Precision::F32 || kernel == Kernel::Resident;
+                    assert!(listed || known.contains(text.as_str()), "{stem}: {kernel:?} of {choice:?}");
+                }
+            }
+        }
+    }
+    assert!(joined > 40 && wheels >= 30, "{joined} scenes have joined chains, {wheels} of them wheels");
 }
 
 /// What an entry point reaches.
@@ -194,7 +313,7 @@ fn names(module: &Module) -> BTreeSet<String> {
 #[test]
 fn every_composition_is_valid_and_all_of_it_is_reached() {
     let all = composed();
-    assert!((150..3000).contains(&all.len()), "{} programs", all.len());
+    assert!((2000..6000).contains(&all.len()), "{} programs", all.len());
     for Composed { choice, kernel, program, .. } in all {
         assert_eq!(program.module.entry_points.len(), 1);
         let missed = Reached::from_entry(&program.module).missed(&program.module);
@@ -423,7 +542,7 @@ fn a_struct_comes_back_from_its_bytes() {
 /// A road that scenes know and shaders do not is an error that names the file.
 #[test]
 fn a_variant_without_a_file_is_named() {
-    let choice = Choice { road: Some("washboard-road"), ..choices()[0] };
+    let choice = Choice { road: Some("washboard-road"), ..choice(&[0; 12]) };
     let error = choice.compose(Kernel::Boundary).unwrap_err().to_string();
     assert!(error.contains("kernels/node") && error.contains("shaders/road/washboard_road.wgsl"), "{error}");
 }

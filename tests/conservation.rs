@@ -1,13 +1,11 @@
 //! Balances: energy to round-off whatever the step does, momentum of a free body, stored energy to second order.
 
-mod common;
-
-use common::{Driver, ELEMENTS, GROUND, block, wheel};
 use hexroll::engine::{StageSetup, Window, Works};
 use hexroll::model::Model;
 use hexroll::physics::friction::Coulomb;
 use hexroll::physics::material::MooneyRivlin;
 use hexroll::physics::tensor::{Vec3, add, cross, scale, sub};
+use hexroll::rig::{self, Driver, ELEMENTS, GROUND, block, wheel};
 use hexroll::run::stability;
 use hexroll::scene::{Drive, Element, Friction, Law, Scene};
 
@@ -37,7 +35,7 @@ impl Book {
 /// by 10 % from one to the next.
 fn everything_at_once(scene: &Scene, free: [Option<f64>; 6], each: impl Fn(&Window, &Book)) -> Book {
     let model = Model::new(scene).unwrap();
-    let mut driver = Driver::new(&model, scene);
+    let mut driver = Driver::new(&model, scene).unwrap();
     driver.engine.begin_stage(&StageSetup { mass_damping: 50.0, free }).unwrap();
     let dt = 0.8 * stability::element_bound(&model).unwrap();
     let [x, y, z] = model.mesh.axle;
@@ -56,7 +54,7 @@ fn everything_at_once(scene: &Scene, free: [Option<f64>; 6], each: impl Fn(&Wind
             steps.push(step);
         }
         driver.engine.advance(&steps).unwrap();
-        let w = driver.sample(if window % 2 == 0 { dt } else { 0.9 * dt });
+        let w = driver.sample(if window % 2 == 0 { dt } else { 0.9 * dt }).unwrap();
         book.add(&w);
         each(&w, &book);
     }
@@ -99,7 +97,7 @@ fn the_energy_balance_closes_whatever_the_step_does() {
 /// `strain`. Returns the model and its driver.
 fn vibrating(scene: &Scene, strain: f64) -> (Model, Driver) {
     let model = Model::new(scene).unwrap();
-    let mut driver = Driver::new(&model, scene);
+    let mut driver = Driver::new(&model, scene).unwrap();
     let spin = [150.0, -80.0, 220.0];
     // An axial half wave: v = c strain sin(pi x / L) at bar speed 84 m/s, the block's centre at the origin.
     let v: Vec<Vec3<f64>> = model
@@ -148,7 +146,7 @@ fn a_free_body_keeps_its_momenta() {
         let speed = 5.0; // the corners' speed from the spin, and the wave's [m/s]
         let mass: f64 = model.mass.iter().sum();
         for (what, unit, k) in [("linear", mass * speed, 0), ("angular", mass * speed * 0.01, 1)] {
-            let drift = common::largest([&sub(after[k], before[k])]) / unit;
+            let drift = rig::largest([&sub(after[k], before[k])]) / unit;
             // A random walk of 20,000 steps of 1e-16 of forces far above the mean: 140 x 1e-15, with a margin of 10.
             assert!(drift < 1e-12, "{element:?}: {what} momentum drifts by {drift:e} of the body's own");
         }
@@ -164,7 +162,7 @@ fn stored_errors(scene: &Scene, strain: f64, share: f64, every: usize, samples: 
     let start: f64 = state.v.iter().zip(&model.mass).map(|(v, m)| 0.5 * m * square(v)).sum();
     let error = |_| {
         driver.advance(std::iter::repeat_n(dt, every)).unwrap();
-        let w = driver.sample(dt);
+        let w = driver.sample(dt).unwrap();
         (w.strain + w.hourglass + w.probe.mixed_kinetic - start) / start
     };
     (0..samples).map(error).collect()
@@ -215,7 +213,7 @@ fn steps_that_change_keep_free_fall_exact() {
     let mut scene = block([0.02; 3], [2; 3]);
     scene.gravity = [0.0, 0.0, -9.81];
     let model = Model::new(&scene).unwrap();
-    let mut driver = Driver::new(&model, &scene);
+    let mut driver = Driver::new(&model, &scene).unwrap();
     let dt = 0.8 * stability::element_bound(&model).unwrap();
     for n in 1..=20 {
         driver.advance((0..7).map(|k| dt * [1.0, 0.5, 0.75][(n + k) % 3])).unwrap();
@@ -244,7 +242,7 @@ fn the_ledger_of_a_run_closes() {
         scene.stages[0].duration = 0.03;
         scene.stages[0].mass_damping = mass_damping;
         assert_eq!(scene.stages[0].rim.spin, Drive::Hold);
-        let outcome = common::run(&scene);
+        let outcome = rig::run(&scene);
         let ledger = &outcome.totals.ledger;
         assert!(ledger.worst_balance < 1e-12 * ledger.largest_term, "{ledger:?}");
         // The impact excites every frequency: at half of the largest step the second-order error is within 1e-2.

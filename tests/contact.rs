@@ -1,8 +1,5 @@
 //! Contact and Coulomb friction on a rigid road: impenetrable, never a source of energy, exact in stick and slip.
 
-mod common;
-
-use common::{GROUND, Outcome, Random, block, close, explicit, run, try_run};
 use hexroll::cpu::Precision;
 use hexroll::model::Model;
 use hexroll::physics::contact::{self, Node};
@@ -11,6 +8,7 @@ use hexroll::physics::node::StepSize;
 use hexroll::physics::road::Plane;
 use hexroll::physics::tensor::{axpy, dot, scale, sub};
 use hexroll::record::ContactState;
+use hexroll::rig::{self, GROUND, Outcome, Random, block, close, explicit, run, simulate_with};
 use hexroll::run::stability;
 use hexroll::scene::*;
 
@@ -49,7 +47,7 @@ fn a_node_lands_sticks_or_slips_by_the_law() {
         let total = axpy(t.tangential_force, 1.0, t.normal_force);
         let change = scale(sub(t.v, v), mass / step.dtm);
         assert!(
-            common::largest([&sub(total, change)]) < 1e-12 * push.max(1.0),
+            rig::largest([&sub(total, change)]) < 1e-12 * push.max(1.0),
             "{total:?} changes momentum by {change:?}"
         );
         let tangential = dot(t.tangential_force, t.tangential_force).sqrt();
@@ -57,7 +55,7 @@ fn a_node_lands_sticks_or_slips_by_the_law() {
         let slip = sub(t.v, surface);
         let slip = axpy(normal, -dot(slip, normal), slip);
         if t.sticks {
-            assert!(tangential <= mu * push * (1.0 + 1e-12) && common::largest([&slip]) < 1e-15);
+            assert!(tangential <= mu * push * (1.0 + 1e-12) && rig::largest([&slip]) < 1e-15);
             stuck += 1;
         } else {
             close("friction", tangential, mu * push, 1e-10);
@@ -129,7 +127,7 @@ fn slope(size: f64, g: f64, mu: f64, settle: Method, steps: f64) -> Scene {
     // Damping ratio 0.03 of the highest frequency 2/dt: xi = (4/3) eta w / (2 (kappa + 4/3 G)).
     scene.body.viscosity = Some(0.03 * 1.5 * scene.body.law.wave_modulus() * dt / 2.0);
     // Near critical for the block's slowest mode, shear over its height: w = (pi/2) sqrt(G/rho) / (size/2).
-    let alpha = std::f64::consts::PI * (common::G / common::DENSITY).sqrt() / size;
+    let alpha = std::f64::consts::PI * (rig::G / rig::DENSITY).sqrt() / size;
     let settle = Stage { method: settle, mass_damping: alpha, ..explicit("settle", 100.0 / alpha) };
     scene.stages = vec![settle, explicit("free", steps * dt)];
     scene.output.sample = 50.0 * dt;
@@ -173,13 +171,13 @@ fn a_block_slides_down_with_the_closed_form_acceleration() {
 /// Where tan(th) = 0.9 mu the block stays: its base drifts by less than `tolerance` of its length in 10,000 steps, and a
 /// node that sticks does not move by a bit.
 fn assert_stays(precision: Precision, size: f64, scene: &Scene, tolerance: f64) {
-    let outcome = try_run(scene, precision, 1).expect("the scene runs");
+    let outcome = simulate_with(scene, Model::new(scene).unwrap(), precision, 1).expect("the scene runs");
     let [.., before, after] = &outcome.snapshots[..] else { panic!("a snapshot at the end of every stage") };
     assert!(after.step - before.step >= 10_000);
     let (mut stuck, mut touching) = (0, 0);
     for node in after.contact.iter().filter(|n| n.state != ContactState::Free) {
         let [a, b] = [before, after].map(|s| s.x[node.node as usize]);
-        let drift = common::largest([&sub(b, a)]) / size;
+        let drift = rig::largest([&sub(b, a)]) / size;
         assert!(
             drift < tolerance,
             "node {} of a block of {size} m drifts by {drift:e} of its length",
@@ -243,7 +241,8 @@ fn a_moving_road_drags() {
     let weight = GRAVITY * outcome.model.mass.iter().sum::<f64>();
     let dragged: Vec<_> = outcome.samples.iter().filter(|s| (0.01..0.03).contains(&s.time_s)).collect();
     // 20 windows of a block that has stopped bouncing: what remains of it, 2 %.
-    close("drag", common::mean(&dragged, dragged.len(), |s| s.road_fx_N), mu * weight, 0.02);
+    let drag = dragged.iter().map(|s| s.road_fx_N).sum::<f64>() / dragged.len() as f64;
+    close("drag", drag, mu * weight, 0.02);
     assert!(dragged.iter().all(|s| s.sticking_share < 0.5));
     let last = outcome.last();
     assert!(last.friction_work_J > 0.0 && last.sticking_share > 0.9, "{last:?}");

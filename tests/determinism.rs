@@ -1,9 +1,8 @@
 //! The same bits on any number of threads, and twice.
 
-mod common;
-
-use common::{HELD, Outcome, explicit, press, try_run, wheel};
 use hexroll::cpu::Precision;
+use hexroll::model::Model;
+use hexroll::rig::{HELD, Outcome, explicit, press, simulate_with, wheel};
 use hexroll::scene::*;
 
 /// A coarse wheel (3 chunks of elements, 7 of nodes, so that threads share them unevenly, and half of the nodes are the
@@ -46,7 +45,8 @@ fn assert_same(a: &Outcome, b: &Outcome, what: &str) {
 /// One, two and three threads, and a second run on one, give the same bits in every sample and in the state.
 fn assert_deterministic(precision: Precision, free: bool) {
     let scene = rolling(free);
-    let run = |threads| try_run(&scene, precision, threads).expect("the scene runs");
+    let model = Model::new(&scene).unwrap();
+    let run = |threads| simulate_with(&scene, model.clone(), precision, threads).expect("the scene runs");
     let one = run(1);
     assert_same(&one, &run(1), "a second run");
     assert_same(&one, &run(2), "two threads");

@@ -1,11 +1,12 @@
 //! The drum as a road: geometry against its definition, the plane as its limit, and how its curvature changes a footprint.
 
-mod common;
-
-use common::{GROUND, Random, close, explicit, mean, run, try_run, wheel};
 use hexroll::cpu::Precision;
+use hexroll::model::Model;
 use hexroll::physics::road::{Drum, Plane};
 use hexroll::physics::tensor::{axpy, cross, dot, scale, sub};
+use hexroll::record::Sample;
+use hexroll::rig::given::{MESH, OUTER_RADIUS};
+use hexroll::rig::{GROUND, Random, close, down, explicit, largest, press, run, simulate_with, wheel};
 use hexroll::scene::*;
 
 /// A drum outside (1) or inside (-1) with its axis along y, through the origin there.
@@ -39,14 +40,14 @@ fn a_drum_is_round_and_turns_as_a_whole() {
             // Coordinates near one: a few round-offs.
             assert!((road.gap(x) - side * (r - radius)).abs() < 1e-15, "{x:?}");
             let n = scale(radial, side / r);
-            assert!(common::largest([&sub(road.normal(x), n)]) < 1e-15);
+            assert!(largest([&sub(road.normal(x), n)]) < 1e-15);
             let surface = scale(cross(axis, radial), omega * radius / r);
-            assert!(common::largest([&sub(road.velocity(x), surface)]) < 1e-14 * omega);
+            assert!(largest([&sub(road.velocity(x), surface)]) < 1e-14 * omega);
             // Its own coordinates lead back to the point below x.
             let below = axpy(n, -road.gap(x), x);
-            assert!(common::largest([&sub(road.point(road.chart(x)), below)]) < 1e-15);
+            assert!(largest([&sub(road.point(road.chart(x)), below)]) < 1e-15);
             let [along, across] = road.tangents(x);
-            assert!(common::largest([&sub(cross(along, across), n)]) < 1e-15, "a right-handed set");
+            assert!(largest([&sub(cross(along, across), n)]) < 1e-15, "a right-handed set");
         }
     }
 }
@@ -69,24 +70,23 @@ fn the_gap_keeps_its_digits_however_large_the_drum() {
 
 /// The wheel pressed on a road that moves below it, its axle held, mean forces over the last 2 ms of 4.
 fn rolled(road: Road, precision: Precision) -> [f64; 3] {
-    let mut scene = wheel([44, 4, 5], 1.0);
+    let mut scene = wheel(MESH, 1.0);
     scene.road = Some(road);
-    let mut press = common::press(Drive::Displacement { to: -1e-3, ramp: 0.02 });
-    press.rim.spin = Drive::Hold;
     let mut roll = explicit("roll", 4e-3);
     roll.rim.spin = Drive::Velocity { to: 26.0, ramp: 1e-3 };
     roll.rim.z = Drive::Displacement { to: -1e-3, ramp: 1e-3 };
-    scene.stages = vec![press, roll];
+    scene.stages = vec![press(down(1e-3)), roll];
     scene.output.sample = 5e-4;
-    let outcome = try_run(&scene, precision, 1).expect("the scene runs");
-    let rows = outcome.stage(1);
-    [mean(&rows, 4, |s| s.road_fx_N), mean(&rows, 4, |s| s.road_fz_N), mean(&rows, 4, |s| s.rim_my_Nm)]
+    let model = Model::new(&scene).unwrap();
+    let outcome = simulate_with(&scene, model, precision, 1).expect("the scene runs");
+    let columns: [fn(&Sample) -> f64; 3] = [|s| s.road_fx_N, |s| s.road_fz_N, |s| s.rim_my_Nm];
+    columns.map(|column| outcome.mean("roll", 0.5, column))
 }
 
 /// A drum of 1e5 times the wheel's radius is the plane that moves at its surface's speed.
 #[test]
 fn a_very_large_drum_is_a_plane() {
-    let (speed, radius) = (-1.0, 3900.0);
+    let (speed, radius) = (-1.0, 1e5 * OUTER_RADIUS);
     let plane = Road::Plane(Plane { velocity: [speed, 0.0, 0.0], point: [0.0; 3], normal: [0.0, 0.0, 1.0] });
     let flat = rolled(plane, Precision::F64);
     for side in [1.0, -1.0] {
@@ -104,7 +104,7 @@ fn curvature_changes_the_load_as_hertz_says() {
     let load = |road: Road| {
         let mut scene = wheel([88, 8, 2], 0.0);
         scene.road = Some(road);
-        scene.stages = vec![common::press(Drive::Displacement { to: -1e-3, ramp: 0.02 })];
+        scene.stages = vec![press(down(1e-3))];
         let outcome = run(&scene);
         assert!(outcome.totals.ledger.worst_gap > -1e-12, "never inside the drum");
         outcome.last().road_fz_N
@@ -122,17 +122,17 @@ fn curvature_changes_the_load_as_hertz_says() {
 fn energies_on_a_turning_drum_add_up() {
     let mut scene = wheel([44, 4, 2], 0.6);
     scene.road = Some(Road::Drum(drum(1.0, 0.2, -20.0)));
-    scene.stages =
-        vec![common::press(Drive::Displacement { to: -1e-3, ramp: 0.02 }), explicit("slide", 4e-3)];
+    scene.stages = vec![press(down(1e-3)), explicit("slide", 4e-3)];
     scene.output.sample = 5e-4;
     let outcome = run(&scene);
-    let rows = outcome.stage(1);
+    let rows = outcome.stage("slide");
     let first = rows[0];
     let last = outcome.last();
-    let dissipated = |s: &hexroll::record::Sample| s.road_work_J - s.friction_work_J;
+    let dissipated = |s: &Sample| s.road_work_J - s.friction_work_J;
     let lost = dissipated(last) - dissipated(first);
     // All nodes slide under the held wheel: friction force times the way of the surface, 4 m/s.
-    let force = mean(&rows, rows.len() - 1, |s| (s.road_fx_N.powi(2) + s.road_fz_N.powi(2)).sqrt());
+    let force =
+        rows[1..].iter().map(|s| s.road_fx_N.hypot(s.road_fz_N)).sum::<f64>() / (rows.len() - 1) as f64;
     let tangential = force * 0.6 / (1.0f64 + 0.36).sqrt();
     close("dissipated", lost, tangential * 4.0 * (last.time_s - first.time_s), 0.03);
     assert!(outcome.totals.ledger.worst_balance < 1e-9 * outcome.totals.ledger.largest_term);

@@ -1,14 +1,13 @@
 //! The element formulations: forces from energies, rigid motion, balance, shape classes, mass.
 #![allow(non_snake_case)] // X, R: the field's own symbols
 
-mod common;
-
-use common::{ELEMENTS, G, Random, block, close, largest, laws, times, wheel};
 use hexroll::model::Model;
 use hexroll::model::mesh::{Mesh, SIGNS};
 use hexroll::physics::element::{Class, Compose, Composition, Corners, Energy, Force, Formulation};
 use hexroll::physics::material::{Hyperelastic, Viscosity};
 use hexroll::physics::tensor::{Mat3, Vec3, add, cross, dot};
+use hexroll::rig::given::{DENSITY, INNER_RADIUS, OUTER_RADIUS, WIDTH};
+use hexroll::rig::{ELEMENTS, G, Random, block, close, largest, laws, times, wheel};
 use hexroll::scene::{Body, Element, Law, Lumping};
 
 const EDGE: f64 = 2e-3;
@@ -236,7 +235,7 @@ fn a_ring_has_one_class_a_radial_layer() {
     for (element, hex) in model.mesh.hexes.iter().enumerate() {
         let [x, _, z] = model.mesh.nodes[hex[0] as usize];
         // The inner corner of layer k is at radius 17 mm + k 5.5 mm.
-        let layer = ((x.hypot(z - 0.039) - 0.017) / 5.5e-3).round() as u32;
+        let layer = ((x.hypot(z - OUTER_RADIUS) - INNER_RADIUS) / 5.5e-3).round() as u32;
         assert_eq!(model.class_of[element], model.class_of[(layer * 44 * 5) as usize]);
     }
     assert_eq!(Model::new(&block([0.03, 0.02, 0.01], [3, 4, 5])).unwrap().classes.len(), 1);
@@ -333,10 +332,11 @@ fn mass_is_density_times_volume() {
         let model = Model::new(&scene).unwrap();
         // Between two 44-gons.
         let polygon = |r: f64| 22.0 * r * r * (std::f64::consts::TAU / 44.0).sin();
-        let expected = 1100.0 * 0.0175 * (polygon(0.039) - polygon(0.017));
+        let expected = DENSITY * WIDTH * (polygon(OUTER_RADIUS) - polygon(INNER_RADIUS));
         // A sum of 1,320 terms.
         close("mass", model.mass.iter().sum(), expected, 1e-13);
-        let moment = model.mesh.nodes.iter().zip(&model.mass).map(|(x, m)| m * (x[2] - 0.039)).sum::<f64>();
+        let moment =
+            model.mesh.nodes.iter().zip(&model.mass).map(|(x, m)| m * (x[2] - OUTER_RADIUS)).sum::<f64>();
         assert!(moment.abs() < 1e-14 * expected, "the wheel is balanced");
     }
 }
@@ -352,7 +352,7 @@ fn row_sums_keep_the_centre_of_mass() {
     let centroid = |lumping| {
         let model = Model::from_mesh(mesh.clone(), &body(lumping)).unwrap();
         let total: f64 = model.mass.iter().sum();
-        close("mass", total, 1100.0 * (1.0 + s + s * s) / 3.0, 1e-14);
+        close("mass", total, DENSITY * (1.0 + s + s * s) / 3.0, 1e-14);
         mesh.nodes.iter().zip(&model.mass).map(|(x, m)| x[2] * m).sum::<f64>() / total
     };
     let exact = (1.0 + 2.0 * s + 3.0 * s * s) / (4.0 * (1.0 + s + s * s));

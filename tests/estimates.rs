@@ -1,26 +1,12 @@
 //! What a run says of its own errors (`summary.json`, `errors`), against runs with other steps and in other precisions.
 
-mod common;
-
-use common::wheel;
-use hexroll::cpu::{self, Precision};
+use hexroll::cpu::Precision;
 use hexroll::model::Model;
-use hexroll::record::{Sample, Snapshot};
-use hexroll::run::{self, Observer, Progress, Totals};
-use hexroll::scene::{Drive, InitialVelocity, RimMotion, Scene, Snapshots, Stage};
-
-#[derive(Default)]
-struct Rows(Vec<Sample>);
-
-impl Observer for Rows {
-    fn sample(&mut self, sample: &Sample, _: &Progress) -> hexroll::Result<()> {
-        self.0.push(sample.clone());
-        Ok(())
-    }
-    fn snapshot(&mut self, _: &Snapshot, _: &str) -> hexroll::Result<()> {
-        Ok(())
-    }
-}
+use hexroll::record::Sample;
+use hexroll::rig::given::{DEPTH, SPIN, STRAIGHT};
+use hexroll::rig::{down, press, rolling, simulate_with, wheel};
+use hexroll::run::Totals;
+use hexroll::scene::{Scene, Snapshots};
 
 /// A coarse wheel pressed by 2.2 mm, and rolled for `duration` if that is not zero.
 fn scene(eta: f64, duration: f64) -> Scene {
@@ -28,14 +14,10 @@ fn scene(eta: f64, duration: f64) -> Scene {
     scene.body.viscosity = (eta > 0.0).then_some(eta);
     scene.output.sample = 1e-3;
     scene.output.snapshots = Snapshots::None;
-    let press = common::press(Drive::Displacement { to: -2.2e-3, ramp: 0.02 });
-    let at = |to: f64| Drive::Velocity { to, ramp: 0.0 };
-    let roll = Stage {
-        initial_velocity: Some(InitialVelocity::Rim),
-        rim: RimMotion { x: at(2.59), spin: at(70.0), ..common::HELD },
-        ..common::explicit("roll", duration)
-    };
-    scene.stages = if duration > 0.0 { vec![press, roll] } else { vec![press] };
+    scene.stages = vec![press(down(DEPTH))];
+    if duration > 0.0 {
+        scene.stages.push(rolling(STRAIGHT, SPIN, duration));
+    }
     scene
 }
 
@@ -43,13 +25,11 @@ fn scene(eta: f64, duration: f64) -> Scene {
 fn forces(scene: &Scene, safety: f64, precision: Precision) -> ([f64; 2], Totals) {
     let scene = Scene { safety, ..scene.clone() };
     let model = Model::new(&scene).unwrap();
-    let mut engine = cpu::engine(&model, &scene, precision, 1);
-    let mut rows = Rows::default();
-    let totals = run::run(&scene, &model, &mut *engine, &mut rows).unwrap();
+    let outcome = simulate_with(&scene, model, precision, 1).unwrap();
     let count = if scene.stages.len() > 1 { 10 } else { 1 };
-    let last = &rows.0[rows.0.len() - count..];
+    let last = &outcome.samples[outcome.samples.len() - count..];
     let mean = |f: fn(&Sample) -> f64| last.iter().map(f).sum::<f64>() / count as f64;
-    ([mean(|s| s.road_fx_N), mean(|s| s.road_fz_N)], totals)
+    ([mean(|s| s.road_fx_N), mean(|s| s.road_fz_N)], outcome.totals)
 }
 
 /// Largest difference of two pairs of forces over the load.

@@ -1,13 +1,11 @@
 //! Friction laws beyond Coulomb's: their curves, and what one step of contact makes of them.
 
-mod common;
-
-use common::{Random, block, close, run};
 use hexroll::physics::contact::{self, Node, Touch};
 use hexroll::physics::friction::{Coulomb, PressureVelocity, Sliding, StaticKinetic, Stribeck, Viscous};
 use hexroll::physics::node::StepSize;
 use hexroll::physics::road::Plane;
 use hexroll::physics::tensor::{axpy, dot};
+use hexroll::rig::{Random, block, close, run};
 use hexroll::scene::{Friction, GROUND, Road};
 
 const STRIBECK: Friction = Friction::Stribeck(Stribeck { still: 1.2, kinetic: 0.7, speed: 0.1, slope: 0.05 });

@@ -2,13 +2,11 @@
 
 #![allow(non_snake_case)] // X: reference positions
 
-mod common;
-
-use common::{Driver, GROUND, block, close, largest, try_run};
 use hexroll::cpu::Precision;
 use hexroll::model::Model;
 use hexroll::physics::friction::Coulomb;
 use hexroll::physics::tensor::sub;
+use hexroll::rig::{Driver, GROUND, block, close, largest, simulate_with};
 use hexroll::run::stability;
 use hexroll::scene::{Friction, Hold, Scene};
 
@@ -27,7 +25,7 @@ fn half_a_body_moves_as_the_whole() {
     };
     let run = |scene: &Scene| {
         let model = Model::new(scene).unwrap();
-        let mut driver = Driver::new(&model, scene);
+        let mut driver = Driver::new(&model, scene).unwrap();
         let v: Vec<_> = model.mesh.nodes.iter().map(|&x| field(x)).collect();
         driver.engine.set_velocity(&v, &[0.0; 6]).unwrap();
         driver.advance(std::iter::repeat_n(1.5e-5, 400)).unwrap();
@@ -70,7 +68,8 @@ fn sliding() -> Scene {
 #[test]
 fn a_held_component_does_not_move_by_a_bit() {
     for (precision, balance) in [(Precision::F64, 1e-12), (Precision::F32, 1e-4)] {
-        let outcome = try_run(&sliding(), precision, 1).unwrap();
+        let scene = sliding();
+        let outcome = simulate_with(&scene, Model::new(&scene).unwrap(), precision, 1).unwrap();
         let snapshot = outcome.snapshots.last().unwrap();
         for ((x, v), X) in snapshot.x.iter().zip(&snapshot.v).zip(&outcome.model.mesh.nodes) {
             let stored = if precision == Precision::F64 { X[1] } else { f64::from(X[1] as f32) };
@@ -91,7 +90,7 @@ fn the_critical_step_is_that_of_plane_waves() {
     let mut scene = block([0.05, h, h], [50, 1, 1]);
     scene.holds = vec![hold("all", [false, true, true])];
     let model = Model::new(&scene).unwrap();
-    let mut driver = Driver::new(&model, &scene);
+    let mut driver = Driver::new(&model, &scene).unwrap();
     let guess = stability::element_bound(&model).unwrap();
     let found = stability::assembled(&mut *driver.engine, &model, &model.mesh.nodes, guess, None).unwrap();
     let c = (scene.body.law.wave_modulus() / scene.body.density).sqrt();

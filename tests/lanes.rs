@@ -4,14 +4,12 @@
 //! level this machine has gives the forces and the motion of the portable one up to rounding, with the elements in any
 //! order, and its reciprocal cube root is exact to the last digits.
 
-mod common;
-
-use common::block;
 use hexroll::cpu::{Precision, engine_at};
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
 use hexroll::physics::lanes::{Array, InLanes, Instructions, Lanes, Level};
 use hexroll::physics::scalar::{Real, Scalar};
+use hexroll::rig::{ELEMENTS, block, laws, relative};
 use hexroll::scene::Scene;
 
 /// Runs a check on the lanes of every level in both precisions, and on arrays.
@@ -35,17 +33,10 @@ fn deformed(mesh: &Mesh) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
     (x, v)
 }
 
-fn relative(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
-    let square = |v: f64| v * v;
-    let difference: f64 = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| square(a - b)).sum();
-    (difference / a.iter().flatten().map(|a| square(*a)).sum::<f64>()).sqrt()
-}
-
 fn cases() -> Vec<Scene> {
-    use hexroll::scene::Element;
     let mut cases = Vec::new();
-    for element in [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }] {
-        for law in common::laws() {
+    for element in ELEMENTS {
+        for law in laws() {
             for viscosity in [None, Some(20.0)] {
                 // 7 elements a row: no lane count divides it, so full, crossing and partial batches all occur.
                 let mut case = block([0.07, 0.03, 0.02], [7, 3, 2]);

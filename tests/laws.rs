@@ -2,12 +2,10 @@
 
 #![allow(non_snake_case)] // F, J, P: the field's own symbols
 
-mod common;
-
-use common::{EQ4, G, KAPPA, RUBBER, Random, TWO_CONSTANTS, close, laws, times};
 use hexroll::physics::element::hex8;
 use hexroll::physics::material::{Hyperelastic, KelvinVoigt, MooneyRivlin, Viscosity, WithLaw, Yeoh};
 use hexroll::physics::tensor::{Identity, Mat3, axpy, cofactor, det, dot};
+use hexroll::rig::{EQ4, G, KAPPA, RUBBER, Random, TWO_CONSTANTS, close, laws, times};
 use hexroll::scene::Law;
 
 struct EnergyAt<'a>(&'a Mat3<f64>);

@@ -1,14 +1,12 @@
 //! The patch test: an affine motion of a distorted mesh stresses every element alike and leaves its inside in balance.
 #![allow(non_snake_case)] // F, J, P: the field's own symbols
 
-mod common;
-
-use common::{ELEMENTS, block, distort, largest, laws, times};
 use hexroll::cpu::{self, Precision};
 use hexroll::model::Model;
 use hexroll::physics::element::hex8;
 use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean, Yeoh};
 use hexroll::physics::tensor::{Mat3, det};
+use hexroll::rig::{self, ELEMENTS, block, distort, largest, laws, times};
 use hexroll::scene::{Element, Law};
 
 const ETA: f64 = 20.0;
@@ -95,10 +93,7 @@ fn an_affine_motion_of_a_distorted_mesh_is_homogeneous() {
             for (c, i) in (0..9).map(|k| (k / 3, k % 3)) {
                 // Round-off of the bulk modulus, positions of four edges.
                 let error = (sigma[c][i] - expected[c][i]).abs();
-                assert!(
-                    error < 1e-13 * common::KAPPA,
-                    "{element:?} {law:?} sigma[{i}][{c}] is off by {error}"
-                );
+                assert!(error < 1e-13 * rig::KAPPA, "{element:?} {law:?} sigma[{i}][{c}] is off by {error}");
             }
         }
     }

@@ -5,15 +5,13 @@
 //! the number of threads, the forces are those of a plain loop over the elements, and the motion does not depend on
 //! the numbering.
 
-mod common;
-
-use common::{Driver, Random, block, distort, explicit, press, wheel};
 use hexroll::cpu::{Precision, engine, engine_at};
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
 use hexroll::physics::lanes::Level;
-use hexroll::record::{Sample, Snapshot};
-use hexroll::run::{Observer, Progress};
+use hexroll::rig::{
+    Driver, Random, block, distort, explicit, press, relative, shipped, simulate_with, wheel,
+};
 use hexroll::scene::{Drive, Element, Scene};
 
 /// Elements and nodes in random order.
@@ -63,12 +61,6 @@ fn plain(model: &Model, x: &[[f64; 3]], v: &[[f64; 3]]) -> Vec<[f64; 3]> {
         }
     }
     f
-}
-
-fn relative(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
-    let square = |a: f64| a * a;
-    let difference: f64 = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| square(a - b)).sum();
-    (difference / b.iter().flatten().map(|b| square(*b)).sum::<f64>()).sqrt()
 }
 
 /// Elements one by one are computed without what the engine knows of their shapes: that none of their numbers is zero because
@@ -154,9 +146,9 @@ fn the_motion_does_not_depend_on_the_numbering() {
     let whole = model(&scene, |_| {});
     let other = model(&scene, |mesh| *mesh = shuffled(mesh, &mut Random::new(3)));
     let moved = |model: &Model| {
-        let mut driver = Driver::new(model, &scene);
+        let mut driver = Driver::new(model, &scene).unwrap();
         driver.advance(std::iter::repeat_n(1e-5, 200)).expect("the steps are stable");
-        let window = driver.sample(1e-5);
+        let window = driver.sample(1e-5).unwrap();
         assert!(window.step_contact.iter().any(|s| s.touching > 0), "it touches");
         // By reference position, which shuffling keeps to the last bit.
         let mut x: Vec<_> = std::iter::zip(&model.mesh.nodes, driver.engine.state().unwrap().x).collect();
@@ -183,11 +175,11 @@ fn lanes_without_a_node_do_no_work() {
     let given: f64 = v.iter().zip(&model.mass).map(|(v, m)| 0.5 * m * square(v)).sum();
     for level in Level::available() {
         for threads in [1, 2] {
-            let mut driver = Driver::new(&model, &scene);
+            let mut driver = Driver::new(&model, &scene).unwrap();
             driver.engine = engine_at(&model, &scene, Precision::F64, threads, level);
             driver.engine.set_velocity(&v, &[0.0; 6]).unwrap();
             driver.advance(std::iter::repeat_n(1e-6, 50)).unwrap();
-            let window = driver.sample(1e-6);
+            let window = driver.sample(1e-6).unwrap();
             let done = window.works.internal + window.works.viscous;
             let error = (window.kinetic - given - done) / given;
             // Round-off of 50 steps' sums over 800 nodes.
@@ -203,10 +195,10 @@ fn contact_of_every_step_adds_up_to_the_windows() {
     let scene = wheel([44, 2, 3], 0.5);
     let model = Model::new(&scene).unwrap();
     for threads in [1, 2] {
-        let mut driver = Driver::new(&model, &scene);
+        let mut driver = Driver::new(&model, &scene).unwrap();
         driver.engine = engine(&model, &scene, Precision::F64, threads);
         driver.advance(std::iter::repeat_n(1e-5, 150)).unwrap();
-        let window = driver.sample(1e-5);
+        let window = driver.sample(1e-5).unwrap();
         assert_eq!(window.step_contact.len(), 150);
         let touching: u32 = window.step_contact.iter().map(|s| s.touching).sum();
         assert!(touching > 0);
@@ -229,14 +221,14 @@ fn changes_of_state_do_not_depend_on_the_windows() {
     let scene = wheel([44, 2, 3], 1.0);
     let model = Model::new(&scene).unwrap();
     let [rarely, often] = [200, 10].map(|window| {
-        let mut driver = Driver::new(&model, &scene);
+        let mut driver = Driver::new(&model, &scene).unwrap();
         let mut all = Vec::new();
         for step in 1..=200 {
             // Down by 1 mm at 1 m/s, then held.
             driver.rim[2] -= if step <= 100 { 1e-5 } else { 0.0 };
             driver.advance([1e-5]).unwrap();
             if step % window == 0 {
-                all.extend(driver.sample(1e-5).step_contact);
+                all.extend(driver.sample(1e-5).unwrap().step_contact);
             }
         }
         all
@@ -249,39 +241,22 @@ fn changes_of_state_do_not_depend_on_the_windows() {
     assert!(rarely.iter().filter(|s| s.touching > s.changes).count() > 50);
 }
 
-/// A history and nothing else.
-#[derive(Default)]
-struct Rows(Vec<Sample>);
-
-impl Observer for Rows {
-    fn sample(&mut self, sample: &Sample, _: &Progress) -> hexroll::Result<()> {
-        self.0.push(sample.clone());
-        Ok(())
-    }
-    fn snapshot(&mut self, _: &Snapshot, _: &str) -> hexroll::Result<()> {
-        Ok(())
-    }
-}
-
 /// The run asks the mesh, not the generator, how many elements stand round its axle: with other numbers the tone is found
 /// and the windows of the footprint are cut as before.
 #[test]
 fn a_shuffled_wheel_has_its_tone_and_its_footprint() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/lat100_straight_viscous.toml");
     // Windows of 5 ms, in which a wheel of 24 elements rolls over one and a bit; 2.9 of them in the tail of 40 ms.
     let sets = ["body.mesh.elements=[24,2,2]", "output.sample=5 ms", "stage.1.duration=40 ms"];
-    let scene = Scene::load(file.as_ref(), &sets.map(String::from)).unwrap();
-    let rolled = |model: &Model| {
-        let mut rows = Rows::default();
-        let mut engine = engine(model, &scene, Precision::F64, 1);
-        let totals = hexroll::run::run(&scene, model, &mut *engine, &mut rows).unwrap();
-        let length = rows.0.iter().rev().take(4).map(|s| s.footprint_length_m).sum::<f64>() / 4.0;
-        let noise = totals.noise.last().copied().flatten().expect("it touches");
+    let scene = shipped("lat100_straight_viscous", &sets);
+    let rolled = |model: Model| {
+        let outcome = simulate_with(&scene, model, Precision::F64, 1).unwrap();
+        let length = outcome.samples.iter().rev().take(4).map(|s| s.footprint_length_m).sum::<f64>() / 4.0;
+        let noise = outcome.totals.noise.last().copied().flatten().expect("it touches");
         (length, noise.tone.expect("the mesh has rows").frequency)
     };
-    let (length, tone) = rolled(&model(&scene, |_| {}));
+    let (length, tone) = rolled(model(&scene, |_| {}));
     let (other_length, other_tone) =
-        rolled(&model(&scene, |mesh| *mesh = shuffled(mesh, &mut Random::new(5))));
+        rolled(model(&scene, |mesh| *mesh = shuffled(mesh, &mut Random::new(5))));
     assert!((other_tone / tone - 1.0).abs() < 1e-9, "{other_tone} Hz, {tone} Hz");
     // Forces are summed in another order; that is round-off, which rolling contact makes larger. Whole windows would be
     // some 15 % longer: a node touches for half of a part, but not for half of a window.

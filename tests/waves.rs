@@ -1,9 +1,7 @@
 //! Elastic waves in a bar: speed, shape and reflections.
 
-mod common;
-
-use common::{DENSITY, Driver, G, KAPPA, block, close};
 use hexroll::model::Model;
+use hexroll::rig::{DENSITY, Driver, G, KAPPA, block, close};
 use hexroll::run::stability;
 use hexroll::scene::{Rim, Scene};
 
@@ -32,7 +30,7 @@ fn bump(x: f64) -> f64 {
 /// velocities, node planes along x, at the times asked for [s].
 fn travel(scene: &Scene, times: &[f64]) -> Vec<Vec<f64>> {
     let model = Model::new(scene).unwrap();
-    let mut driver = Driver::new(&model, scene);
+    let mut driver = Driver::new(&model, scene).unwrap();
     // Strains of 1e-5: linear.
     let height = 1e-5 * bar_speed();
     let v: Vec<[f64; 3]> = model.mesh.nodes.iter().map(|x| [height * bump(x[0]), 0.0, 0.0]).collect();

@@ -9,8 +9,9 @@ use crate::cpu::{Precision, engine};
 use crate::engine::Engine;
 use crate::model::Model;
 use crate::output::summary::WorstBalance;
-use crate::record::{Sample, Snapshot};
-use crate::run::{Observer, Progress, run, stability};
+use crate::record::Sample;
+use crate::rig::Recorder;
+use crate::run::{run, stability};
 use crate::scene::Scene;
 
 /// Time steps of the paper's wheel, and rolling runs at several safeties.
@@ -116,7 +117,7 @@ pub fn steps(wheel: &Wheel) -> Result<[CriticalStep; 2]> {
     let bound = stability::element_bound(&model)?;
     let mut engine = engine(&model, &scene, Precision::F64, 0);
     let rest = step(wheel, "rest", &mut *engine, &model, bound)?;
-    run(&scene, &model, &mut *engine, &mut Samples::default())?;
+    run(&scene, &model, &mut *engine, &mut Recorder::default())?;
     let pressed = step(wheel, "pressed", &mut *engine, &model, bound)?;
     Ok([rest, pressed])
 }
@@ -159,10 +160,10 @@ pub fn rolling(wheel: &Wheel, safety: f64) -> Result<RollingRun> {
     let scene = Scene { safety, ..wheel.scene()? };
     let model = Model::new(&scene)?;
     let mut engine = engine(&model, &scene, Precision::F64, 0);
-    let mut samples = Samples::default();
-    let outcome = run(&scene, &model, &mut *engine, &mut samples);
+    let mut kept = Recorder::default();
+    let outcome = run(&scene, &model, &mut *engine, &mut kept);
     let name = &scene.stages.last().expect("the scene rolls").name;
-    let rolled: Vec<Sample> = samples.0.into_iter().filter(|s| s.stage == *name).collect();
+    let rolled: Vec<Sample> = kept.samples.into_iter().filter(|s| s.stage == *name).collect();
     let half = rolled.len() / 2;
     let last = &rolled[rolled.len().saturating_sub(30)..];
     let mean = |of: fn(&Sample) -> f64| last.iter().map(of).sum::<f64>() / last.len().max(1) as f64;
@@ -180,19 +181,4 @@ pub fn rolling(wheel: &Wheel, safety: f64) -> Result<RollingRun> {
         road: [mean(|s| s.road_fx_N), mean(|s| s.road_fz_N)],
         failure: outcome.err().map(|e| e.to_string()),
     })
-}
-
-/// Keeps the history.
-#[derive(Default)]
-struct Samples(Vec<Sample>);
-
-impl Observer for Samples {
-    fn sample(&mut self, sample: &Sample, _: &Progress) -> Result<()> {
-        self.0.push(sample.clone());
-        Ok(())
-    }
-
-    fn snapshot(&mut self, _: &Snapshot, _: &str) -> Result<()> {
-        Ok(())
-    }
 }

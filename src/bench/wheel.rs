@@ -4,6 +4,7 @@ use crate::Result;
 use crate::engine::{Engine, StageSetup, State, Step};
 use crate::model::Model;
 use crate::physics::rim::{self, Coordinates};
+use crate::rig::given::{self, DEPTH, SPEED, SPIN};
 use crate::run::stability;
 use crate::scene::Scene;
 use glam::DVec3;
@@ -12,13 +13,9 @@ use std::time::Instant;
 /// The straight run, as shipped.
 const SCENE: &str = include_str!("../../scenes/lat100_straight.toml");
 /// Elements of the paper's mesh along circumference, radius and width.
-const COARSE: [usize; 3] = [44, 4, 5];
+const COARSE: [usize; 3] = given::MESH;
 /// Steps over which the wheel sinks; fixed, so that every engine takes the same steps.
 const SINKING: u64 = 200;
-/// How deep [m]; speed along x [m/s]; spin [rad/s].
-const DEPTH: f64 = 2.2e-3;
-const SPEED: f64 = 2.59;
-const SPIN: f64 = 70.0;
 /// Safety on the step that single elements allow: below the assembled critical step, so also stable when pressed.
 const SAFETY: f64 = 0.9;
 
@@ -44,7 +41,7 @@ impl Wheel<'_> {
     /// Its scene. `elements` must be 880 n^3.
     pub fn scene(&self) -> Result<Scene> {
         let n = refinement(self.elements).expect("the command line asks for 880 n^3 elements");
-        let [c, r, w] = COARSE.map(|count| count * n);
+        let [c, r, w] = given::refined(n);
         let mut set =
             vec![format!("body.mesh.elements=[{c}, {r}, {w}]"), format!("body.element={}", self.element)];
         set.extend(self.viscosity.map(|eta| format!("body.material.viscosity=\"{eta} Pa s\"")));
@@ -99,7 +96,7 @@ impl Roll {
 
     /// Steps of 0.1 s, the length of the paper's run: no row is timed for longer.
     pub fn whole_run(&self) -> u64 {
-        (0.1 / self.dt) as u64
+        (given::ROLLING / self.dt) as u64
     }
 
     /// Every node with the rigid velocity of the rim's motion, sinking included.

@@ -114,6 +114,7 @@ fn cases(args: &CasesArgs, all: &[Case], title: &str, intro: &str, kind: &str) -
 fn hard_cases(args: &CasesArgs) -> Result<()> {
     let hard: Vec<&stability::Hard> = (stability::HARD.iter())
         .filter(|h| args.only.is_empty() || args.only.iter().any(|name| name == h.name))
+        .filter(|h| h.everyday || !args.everyday)
         .collect();
     let own = CasesArgs {
         only: args.only.iter().filter(|n| hard.iter().all(|h| h.name != **n)).cloned().collect(),

@@ -23,7 +23,7 @@ mod tests {
         assert_eq!(ticks(0.0, 10.0, 5.0), (vec![0.0, 2.0, 4.0, 6.0, 8.0, 10.0], 0));
         let (at, decimals) = ticks(-0.013, 0.022, 4.0);
         assert_eq!((at, decimals), (vec![-0.01, 0.0, 0.01, 0.02], 2));
-        assert_eq!(ticks(299.1, 300.9, 4.0).0, [299.5, 300.0, 300.5]);
+        assert_eq!(ticks(199.1, 200.9, 4.0).0, [199.5, 200.0, 200.5]);
         assert_eq!(ticks(1e6, 3e6, 4.0).1, 0);
     }
 }

@@ -1,5 +1,8 @@
 //! A claim: a number, what it should be by a source, and how near it must come.
 
+use crate::rig::Reference;
+use crate::rig::references::Within;
+
 /// How near a number must come to what is expected.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tolerance {
@@ -46,6 +49,16 @@ impl Claim {
         reason: &'static str,
     ) -> Claim {
         Claim { what: what.into(), unit, expected, got, tolerance: Tolerance::Absolute(tolerance), reason }
+    }
+
+    /// What another program says of the paper's wheel; `got` in SI units.
+    pub fn reference(what: impl Into<String>, got: f64, reference: &'static Reference) -> Claim {
+        let tolerance = match reference.within {
+            Within::Relative(t) => Tolerance::Relative(t),
+            Within::Absolute(t) => Tolerance::Absolute(t),
+        };
+        let (unit, expected, reason) = (reference.unit, reference.value, reference.reason.as_str());
+        Claim { what: what.into(), unit, expected, got, tolerance, reason }
     }
 
     pub fn at_most(

@@ -72,7 +72,7 @@ pub fn time_step(stored: f64, changing: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::bench::block;
+    use crate::rig::block;
 
     #[test]
     fn edges_feel_a_stretch_and_no_rotation() {

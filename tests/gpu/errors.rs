@@ -125,7 +125,7 @@ pub fn limits(gpu: &Gpu) {
 
 /// An adapter without double precision says so.
 pub fn no_doubles(gpu: &Gpu) {
-    let scene = scene("spinning_block", &[]);
+    let scene = scene("spinning_block", &[""; 0]);
     let mut single = gpu.clone();
     single.report.doubles = false;
     match GpuEngine::new(&single, &Model::new(&scene).unwrap(), &scene, Precision::F64) {
@@ -172,7 +172,7 @@ fn refused<T>(what: &str, result: hexroll::Result<T>) {
 }
 
 pub fn device_errors(gpu: &Gpu) {
-    let scene = scene("lat100_straight", &[]);
+    let scene = scene("lat100_straight", &[""; 0]);
     let model = Model::new(&scene).unwrap();
     let most = gpu.device.limits();
     let bindings = wgpu::Limits { max_storage_buffer_binding_size: 65_536, ..most.clone() };

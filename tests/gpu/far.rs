@@ -1,6 +1,6 @@
 //! Single precision far from where the wheel started: positions are kept relative to a frame that follows the axle.
 
-use crate::rig::{Noise, Plan, Who, engine, note, on_device, outcome, relative, safe_step, scene};
+use crate::rig::{Plan, Random, Who, engine, note, on_device, outcome, relative, safe_step, scene};
 use hexroll::engine::{Engine, State};
 use hexroll::gpu::{Gpu, Precision};
 use hexroll::model::Model;
@@ -19,9 +19,9 @@ pub fn offset(gpu: &Gpu) {
     let (near_scene, near) = wheel(&[]);
     let (far_scene, far) = wheel(&["body.offset=[\"1000 m\", \"0 m\", \"0 m\"]"]);
     assert_eq!(near.classes.len(), far.classes.len());
-    let mut noise = Noise::new(11);
-    let u: Vec<[f64; 3]> = near.mesh.nodes.iter().map(|_| noise.vector(0.3e-3)).collect();
-    let v: Vec<[f64; 3]> = near.mesh.nodes.iter().map(|_| noise.vector(1.0)).collect();
+    let mut random = Random::new(11);
+    let u: Vec<[f64; 3]> = near.mesh.nodes.iter().map(|_| random.within(0.3e-3)).collect();
+    let v: Vec<[f64; 3]> = near.mesh.nodes.iter().map(|_| random.within(1.0)).collect();
     for precision in [Precision::F32, Precision::F32Plus] {
         let forces = |scene: &Scene, model: &Model| {
             let x: Vec<[f64; 3]> =

@@ -4,11 +4,12 @@
 //! vanishes, in a state with strains and rates of the order of 10 %. The bulk modulus is four shear moduli, so that a
 //! change of any constant shows.
 
-use crate::rig::{self, Noise, Who, note, relative, scene};
+use crate::rig::{self, Random, Who, note, relative, scene};
 use hexroll::gpu::Gpu;
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
 use hexroll::physics::parameters::Parameter;
+use hexroll::rig::{ELEMENTS, G, laws_of};
 use hexroll::scene::{Body, Element, Law, MeshSpec, Scene};
 
 /// Relative L2 error of the forces. Single precision leaves 6e-8 of a coordinate of 30 mm, which is 2e-7 of an edge of
@@ -16,11 +17,9 @@ use hexroll::scene::{Body, Element, Law, MeshSpec, Scene};
 /// and with pairs no less: they save the positions, not the arithmetic.
 const TOLERANCE: f64 = 5e-6;
 
-const ELEMENTS: [Element; 3] = [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
-
 /// One of each law, with a bulk modulus that does not drown the rest in rounding.
 fn laws() -> Vec<Law> {
-    Law::KINDS.iter().map(|kind| (kind.example)(2.64e6, 10e6)).collect()
+    laws_of(G, 4.0 * G).collect()
 }
 
 struct Case {
@@ -36,23 +35,23 @@ fn case() -> Case {
         &["body.mesh.size=[\"30 mm\", \"27 mm\", \"24 mm\"]", "body.mesh.elements=[3, 3, 3]"],
     );
     let mut mesh = Mesh::generate(&scene.body.mesh);
-    let mut noise = Noise::new(7);
+    let mut random = Random::new(7);
     let mut moved = |x: &[f64; 3], scale: f64| {
-        let by = noise.vector(scale);
+        let by = random.within(scale);
         std::array::from_fn(|d| x[d] + by[d])
     };
     mesh.nodes = mesh.nodes.iter().map(|x| moved(x, 0.8e-3)).collect();
     let stretched = |x: &[f64; 3]| [1.05 * x[0] + 0.08 * x[1], 0.97 * x[1] - 0.05 * x[2], x[2] + 0.06 * x[0]];
     let x = mesh.nodes.iter().map(|x| moved(&stretched(x), 0.5e-3)).collect();
-    let v = mesh.nodes.iter().map(|_| noise.vector(20.0)).collect();
+    let v = mesh.nodes.iter().map(|_| random.within(20.0)).collect();
     Case { scene, mesh, x, v }
 }
 
 /// The same of plane figures extruded along y, the meshes' eta: a metric has its entry xz alone.
 fn extruded() -> Case {
     let mut case = case();
-    let mut noise = Noise::new(13);
-    let shifts: Vec<[f64; 3]> = (0..16).map(|_| noise.vector(0.8e-3)).collect();
+    let mut random = Random::new(13);
+    let shifts: Vec<[f64; 3]> = (0..16).map(|_| random.within(0.8e-3)).collect();
     case.mesh = Mesh::generate(&case.scene.body.mesh);
     for (n, x) in case.mesh.nodes.iter_mut().enumerate() {
         // Four nodes along x, y and z each.
@@ -164,10 +163,10 @@ fn numberings(gpu: &Gpu, kinds: &[&str]) {
         for distorted in [false, true] {
             let mut case = case();
             case.mesh = Mesh::generate(&spec);
-            let mut noise = Noise::new(11);
+            let mut random = Random::new(11);
             if distorted {
                 for x in &mut case.mesh.nodes {
-                    let by = noise.vector(0.8e-3);
+                    let by = random.within(0.8e-3);
                     *x = std::array::from_fn(|d| x[d] + by[d]);
                 }
             }
@@ -181,8 +180,8 @@ fn numberings(gpu: &Gpu, kinds: &[&str]) {
                 case.mesh = mesh;
                 let nodes = &case.mesh.nodes;
                 let moved = |x: &[f64; 3], by: [f64; 3]| std::array::from_fn(|d| x[d] + by[d]);
-                case.x = nodes.iter().map(|x| moved(x, noise.vector(0.5e-3))).collect();
-                case.v = nodes.iter().map(|_| noise.vector(20.0)).collect();
+                case.x = nodes.iter().map(|x| moved(x, random.within(0.5e-3))).collect();
+                case.v = nodes.iter().map(|_| random.within(20.0)).collect();
                 let body = Body { viscosity: Some(400.0), ..case.scene.body.clone() };
                 let [exact, plain, plus] =
                     [Who::Cpu64, Who::Gpu, Who::Plus].map(|who| case.forces(gpu, who, &body));

@@ -22,7 +22,7 @@ fn agrees_on(gpu: &Gpu) {
             &["gravity=[\"100 m/s2\", \"200 m/s2\", \"-981 m/s2\"]", "friction.coefficient=0.3"][..],
         ),
         ("lat100_straight", &["body.element=uniform-gradient"]),
-        ("spinning_block", &[]),
+        ("spinning_block", &[""; 0]),
     ] {
         let scene = scene(stem, changes);
         let model = Model::new(&scene).unwrap();

@@ -7,14 +7,8 @@ use hexroll::model::Model;
 use hexroll::physics::rim::Coordinates;
 use hexroll::run::{Motion, stability};
 use hexroll::scene::Scene;
-use std::path::Path;
 
-/// A shipped scene with changes.
-pub fn scene(stem: &str, changes: &[&str]) -> Scene {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(format!("{stem}.toml"));
-    let changes: Vec<String> = changes.iter().map(|c| c.to_string()).collect();
-    Scene::load(&file, &changes).unwrap_or_else(|e| panic!("{e}"))
-}
+pub use hexroll::rig::{Random, relative, shipped as scene};
 
 /// Who computes. `Gpu` keeps plain f32 positions, `Plus` hi + lo pairs; `Double` is f64 on the device.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,26 +46,6 @@ pub fn as_hardware(gpu: &Gpu) -> Gpu {
     let mut gpu = gpu.clone();
     gpu.report.software = false;
     gpu
-}
-
-/// Numbers in -1..1, the same in every run.
-pub struct Noise(u64);
-
-impl Noise {
-    pub fn new(seed: u64) -> Noise {
-        Noise(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
-    }
-
-    pub fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    pub fn vector(&mut self, scale: f64) -> [f64; 3] {
-        [0; 3].map(|_| scale * self.next())
-    }
 }
 
 /// What engines are given to do: every engine gets the same.
@@ -146,14 +120,6 @@ pub fn outcome(gpu: &Gpu, who: Who, model: &Model, scene: &Scene, plan: &Plan) -
 
 pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|d| a[d] * b[d]).sum()
-}
-
-/// |a - b| / |b| over all components, in the L2 norm.
-pub fn relative(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
-    assert_eq!(a.len(), b.len());
-    let square = |i: usize| (0..3).map(|d| (a[i][d] - b[i][d]).powi(2)).sum::<f64>();
-    let difference: f64 = (0..a.len()).map(square).sum();
-    (difference / b.iter().map(|b| dot(*b, *b)).sum::<f64>()).sqrt()
 }
 
 /// Displacements from the reference shape.

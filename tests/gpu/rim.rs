@@ -45,7 +45,7 @@ fn check(gpu: &Gpu, scene: &Scene, model: &Model, plan: &Plan, free: &[usize], b
 
 /// The paper's static wheel: 300 N within 20 ms on a rim of 50 g, mass-damped.
 pub fn pressed_by_a_force(gpu: &Gpu) {
-    let scene = scene("lat100_static_relaxed", &[]);
+    let scene = scene("lat100_static_relaxed", &[""; 0]);
     let model = Model::new(&scene).unwrap();
     let plan = Plan::of_first_stage(&scene, &model, safe_step(&model), 20, 100);
     assert_eq!(plan.setup.free[2], Some(0.05));

@@ -4,32 +4,18 @@ use crate::rig::{Who, engine, note, scene};
 use hexroll::gpu::Gpu;
 use hexroll::model::Model;
 use hexroll::output::{ContactScatter, Verdict};
-use hexroll::record::{Sample, Snapshot};
-use hexroll::run::{Observer, Progress};
-
-#[derive(Default)]
-struct Rows(Vec<Sample>);
-
-impl Observer for Rows {
-    fn sample(&mut self, sample: &Sample, _: &Progress) -> hexroll::Result<()> {
-        self.0.push(sample.clone());
-        Ok(())
-    }
-
-    fn snapshot(&mut self, _: &Snapshot, _: &str) -> hexroll::Result<()> {
-        Ok(())
-    }
-}
+use hexroll::record::Sample;
+use hexroll::rig::{Recorder, simulate_on};
 
 /// Means of (Fx, Fz, My) over the last 30 ms, and what the scatter of the contact force says.
 fn means(gpu: &Gpu, who: Who, stem: &str) -> ([f64; 3], ContactScatter) {
-    let scene = scene(stem, &[]);
+    let scene = scene(stem, &[""; 0]);
     let model = Model::new(&scene).unwrap();
-    let mut rows = Rows::default();
+    let mut kept = Recorder::default();
     let begun = std::time::Instant::now();
-    let totals =
-        hexroll::run::run(&scene, &model, &mut *engine(gpu, who, &model, &scene), &mut rows).unwrap();
-    let tail = &rows.0[rows.0.len() - 30..];
+    let mut engine = engine(gpu, who, &model, &scene);
+    let totals = simulate_on(&scene, &model, &mut *engine, &mut kept).unwrap();
+    let tail = &kept.samples[kept.samples.len() - 30..];
     let mean = |of: fn(&Sample) -> f64| tail.iter().map(of).sum::<f64>() / 30.0;
     let means = [mean(|s| s.road_fx_N), mean(|s| s.road_fz_N), mean(|s| s.rim_my_Nm)];
     note(|| {

@@ -55,7 +55,7 @@ const WHEEL: Bounds = Bounds {
 };
 
 pub fn spinning_block(gpu: &Gpu) {
-    let scene = scene("spinning_block", &[]);
+    let scene = scene("spinning_block", &[""; 0]);
     let model = Model::new(&scene).unwrap();
     let plan = Plan::of_first_stage(&scene, &model, safe_step(&model), 10, 100);
     // Turning at 377 rad/s about its middle, and stretching.
@@ -74,7 +74,7 @@ pub fn spinning_block(gpu: &Gpu) {
 }
 
 pub fn pressed_wheel(gpu: &Gpu) {
-    let scene = scene("lat100_static_height", &[]);
+    let scene = scene("lat100_static_height", &[""; 0]);
     let model = Model::new(&scene).unwrap();
     let plan = Plan::of_first_stage(&scene, &model, safe_step(&model), 10, 100);
     let exact = compare(gpu, &scene, &model, &plan, &WHEEL);
@@ -87,7 +87,7 @@ pub fn pressed_wheel(gpu: &Gpu) {
 
 /// A thousand steps in double precision, of the pressed wheel.
 pub fn doubles(gpu: &Gpu) {
-    let scene = scene("lat100_static_height", &[]);
+    let scene = scene("lat100_static_height", &[""; 0]);
     let model = Model::new(&scene).unwrap();
     let plan = Plan::of_first_stage(&scene, &model, safe_step(&model), 10, 100);
     let [exact, got] = [Who::Cpu64, Who::Double].map(|who| outcome(gpu, who, &model, &scene, &plan));

@@ -2,7 +2,7 @@
 //! viscosity, sliding and sticking contact on a moving road, a rim that moves, steers and spins.
 
 use crate::rig::{
-    Noise, Outcome, Plan, Who, beyond, errors, list, note, outcome, scene, state_errors, within,
+    Outcome, Plan, Random, Who, beyond, errors, list, note, outcome, scene, state_errors, within,
 };
 use hexroll::engine::{StageSetup, Step};
 use hexroll::gpu::Gpu;
@@ -38,9 +38,9 @@ fn plan(model: &Model, windows: &[&[f64]]) -> Plan {
     let windows: Vec<Vec<Step>> = windows.iter().map(|w| w.iter().map(|&dt| step(dt)).collect()).collect();
     let next = step(4e-6);
     let setup = StageSetup { mass_damping: 500.0, free: [None; 6] };
-    let mut noise = Noise::new(3);
+    let mut random = Random::new(3);
     let field = |_| {
-        let v = noise.vector(0.5);
+        let v = random.within(0.5);
         [v[0] + 1.5, v[1], v[2] - 1.0]
     };
     Plan { setup, velocity: None, windows, next }.starting(model, field, [0.0; 6])

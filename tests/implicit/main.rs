@@ -1,6 +1,5 @@
 //! The implicit scheme: tangents, Newton's method, contact, friction, time.
 
-mod fixtures;
 mod hard_cases;
 mod in_time;
 mod multigrid;

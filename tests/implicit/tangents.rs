@@ -1,19 +1,15 @@
 //! The tangent is the derivative of the force, for every law, element and viscosity; symmetric where a potential
 //! exists.
 
-use super::fixtures::{body, model};
 use hexroll::implicit::assembly::Assembler;
 use hexroll::implicit::matrix::BlockMatrix;
-use hexroll::scene::{Element, Law, MeshSpec};
+use hexroll::rig::implicit::{body, model};
+use hexroll::rig::{ELEMENTS, Random, laws, ring};
 
-const ELEMENTS: [Element; 3] = [Element::Q1p0, Element::Full, Element::UniformGradient { hourglass: 0.15 }];
-fn noise(n: usize, scale: f64) -> Vec<[f64; 3]> {
-    let mut state = 12345u64;
-    let mut next = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((state >> 33) as f64 / 2f64.powi(31) - 0.5) * scale
-    };
-    (0..n).map(|_| std::array::from_fn(|_| next())).collect()
+/// Vectors with components within `size`.
+fn noise(n: usize, size: f64) -> Vec<[f64; 3]> {
+    let mut random = Random::new(17);
+    (0..n).map(|_| random.within(size)).collect()
 }
 
 fn sum(a: &[[f64; 3]], b: &[[f64; 3]], s: f64) -> Vec<[f64; 3]> {
@@ -22,19 +18,18 @@ fn sum(a: &[[f64; 3]], b: &[[f64; 3]], s: f64) -> Vec<[f64; 3]> {
 
 #[test]
 fn the_tangent_is_the_derivative_of_the_force() {
-    let mesh =
-        MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements: [8, 2, 2] };
+    let mesh = ring([8, 2, 2]);
     for element in ELEMENTS {
-        for law in Law::KINDS.iter().map(|kind| (kind.example)(2.64e6, 65.1e6)) {
+        for law in laws() {
             for viscosity in [None, Some(20.0)] {
                 let mut body = body(mesh.clone(), law, element);
                 body.viscosity = viscosity;
                 let model = model(&body, None);
                 let n = model.node_count();
                 // Strains of about 10 %, rates of about 100 1/s.
-                let x = sum(&model.mesh.nodes, &noise(n, 1.5e-3), 1.0);
-                let (v, rate) = (noise(n, 1.0), vec![2e4; n]);
-                let direction = noise(n, 1.0).into_iter().rev().collect::<Vec<_>>();
+                let x = sum(&model.mesh.nodes, &noise(n, 0.75e-3), 1.0);
+                let (v, rate) = (noise(n, 0.5), vec![2e4; n]);
+                let direction = noise(n, 0.5).into_iter().rev().collect::<Vec<_>>();
                 let assembler = Assembler::new(&model);
                 let mut matrix = BlockMatrix::of_mesh(n, &model.mesh.hexes);
                 assembler.tangent(&x, &v, &rate, &mut matrix);

@@ -6,6 +6,11 @@ use hexroll::Error;
 use hexroll::physics::friction::Coulomb;
 use hexroll::physics::material::NeoHookean;
 use hexroll::physics::road::Plane;
+use hexroll::rig::at_once;
+use hexroll::rig::given::{
+    AT_5_DEGREES, AT_45_DEGREES, BULK_MODULUS, DENSITY, DEPTH, INNER_RADIUS, LOAD, MESH, OUTER_RADIUS,
+    PRESSING, ROLLING, SHEAR_MODULUS, SPIN, STRAIGHT, VISCOSITY, WIDTH,
+};
 use hexroll::scene::{
     Drive, Element, Friction, ImplicitScheme, InitialVelocity, Law, MeshSpec, Method, Rim, Road, Scene,
 };
@@ -46,21 +51,26 @@ fn every_wheel_is_the_papers() {
         ("lat100_static_relaxed", None, 1.0),
         ("lat100_static_height", None, 1.0),
         ("lat100_straight", None, 1.0),
-        ("lat100_straight_viscous", Some(20.0), 1.0),
-        ("lat100_straight_relaxed", Some(20.0), 1.0),
-        ("lat100_straight_implicit", Some(20.0), 1.0),
+        ("lat100_straight_viscous", Some(VISCOSITY), 1.0),
+        ("lat100_straight_relaxed", Some(VISCOSITY), 1.0),
+        ("lat100_straight_implicit", Some(VISCOSITY), 1.0),
         ("lat100_slip45", None, 0.5),
-        ("lat100_slip45_viscous", Some(20.0), 0.5),
-        ("lat100_slip5_viscous", Some(20.0), 1.0),
+        ("lat100_slip45_viscous", Some(VISCOSITY), 0.5),
+        ("lat100_slip5_viscous", Some(VISCOSITY), 1.0),
     ] {
         let scene = load(stem);
         let MeshSpec::Ring { outer_radius, inner_radius, width, elements } = scene.body.mesh else {
             panic!("{stem}: no ring")
         };
         let micrometers = [outer_radius, inner_radius, width].map(|l| (l * 1e6).round());
-        assert_eq!((micrometers, elements), ([39000.0, 17000.0, 17500.0], [44, 4, 5]), "{stem}");
+        let given = [OUTER_RADIUS, INNER_RADIUS, WIDTH].map(|l| (l * 1e6).round());
+        assert_eq!((micrometers, elements), (given, MESH), "{stem}");
         let Law::NeoHookean(NeoHookean { g0, g1 }) = scene.body.law else { panic!("{stem}: another law") };
-        assert_eq!((g0.round(), g1.round(), scene.body.density), (65.1e6, 2.64e6, 1100.0), "{stem}");
+        assert_eq!(
+            (g0.round(), g1.round(), scene.body.density),
+            (BULK_MODULUS, SHEAR_MODULUS, DENSITY),
+            "{stem}"
+        );
         assert_eq!((scene.body.element, scene.body.viscosity), (Element::Q1p0, eta), "{stem}");
         assert_eq!(scene.friction, Some(Friction::Coulomb(Coulomb { mu })), "{stem}");
         assert_eq!((scene.gravity, scene.rim), ([0.0; 3], Some(Rim { nodes: "inner".into() })), "{stem}");
@@ -77,24 +87,31 @@ fn every_wheel_is_the_papers() {
 
 #[test]
 fn rolling_wheels_start_at_once_on_their_pressed_shape() {
-    for (stem, x, y) in [
-        ("lat100_straight", 2.59, None),
-        ("lat100_straight_viscous", 2.59, None),
-        ("lat100_straight_relaxed", 2.59, None),
-        ("lat100_slip45", 1.9, Some(1.9)),
-        ("lat100_slip45_viscous", 1.9, Some(1.9)),
-        ("lat100_slip5_viscous", 2.5801, Some(0.2257)),
+    for (stem, [x, y]) in [
+        ("lat100_straight", STRAIGHT),
+        ("lat100_straight_viscous", STRAIGHT),
+        ("lat100_straight_relaxed", STRAIGHT),
+        ("lat100_slip45", AT_45_DEGREES),
+        ("lat100_slip45_viscous", AT_45_DEGREES),
+        ("lat100_slip5_viscous", AT_5_DEGREES),
     ] {
         let stages = load(stem).stages;
         let [press, roll] = &stages[..] else { panic!("{stem}: two stages") };
         let Drive::Displacement { to, ramp } = press.rim.z else { panic!("{stem}: not pressed") };
-        assert_eq!(((to * 1e9).round(), (ramp * 1e9).round()), (-2.2e6, 2e7), "{stem}");
-        let at_once = |to| Drive::Velocity { to, ramp: 0.0 };
+        assert_eq!(
+            ((to * 1e9).round(), (ramp * 1e9).round()),
+            ((-1e9 * DEPTH).round(), (1e9 * PRESSING).round()),
+            "{stem}"
+        );
         assert_eq!(roll.rim.x, at_once(x), "{stem}");
-        assert_eq!(roll.rim.y, y.map_or(Drive::Hold, at_once), "{stem}");
-        assert_eq!((roll.rim.z, roll.rim.spin), (Drive::Hold, at_once(70.0)), "{stem}");
+        assert_eq!(roll.rim.y, if y == 0.0 { Drive::Hold } else { at_once(y) }, "{stem}");
+        assert_eq!((roll.rim.z, roll.rim.spin), (Drive::Hold, at_once(SPIN)), "{stem}");
         assert_eq!(roll.initial_velocity, Some(InitialVelocity::Rim), "{stem}");
-        assert_eq!((roll.method, roll.mass_damping, roll.duration), (Method::Explicit, 0.0, 0.1), "{stem}");
+        assert_eq!(
+            (roll.method, roll.mass_damping, roll.duration),
+            (Method::Explicit, 0.0, ROLLING),
+            "{stem}"
+        );
     }
 }
 
@@ -102,7 +119,7 @@ fn rolling_wheels_start_at_once_on_their_pressed_shape() {
 fn the_static_wheels_are_each_others_inverse() {
     let (force, height) = (load("lat100_static"), load("lat100_static_height"));
     let Drive::Free { mass, load, .. } = force.stages[0].rim.z else { panic!("z is not free") };
-    assert_eq!((mass, load), (0.05, -300.0));
+    assert_eq!((mass, load), (0.05, -LOAD));
     assert!(matches!(height.stages[0].rim.z, Drive::Displacement { .. }));
     assert_eq!((force.body, force.friction), (height.body, height.friction));
 }

@@ -1,6 +1,6 @@
 //! The problems that are measured, and the settings they are measured with.
 
-use crate::report::bench::{HELD, explicit, press, wheel};
+use crate::rig::{down, given, press, rolling, wheel};
 use crate::scene::*;
 
 /// What is computed.
@@ -99,7 +99,7 @@ pub fn element_name(element: Element) -> &'static str {
 
 /// Formulations that are measured; the hourglass stiffness is the default one.
 pub const ELEMENTS: [Element; 3] =
-    [Element::Q1p0, Element::UniformGradient { hourglass: 0.15 }, Element::Full];
+    [Element::Q1p0, Element::UniformGradient { hourglass: given::HOURGLASS }, Element::Full];
 
 /// Duration of the rolling stage, and the part at its end that is averaged [s].
 pub const ROLL: f64 = 0.05;
@@ -107,19 +107,14 @@ pub const MEAN: f64 = 0.01;
 
 /// The wheel of a problem.
 pub fn scene(problem: Problem, setting: &Setting) -> Scene {
-    let m = setting.mesh;
-    let mut scene = wheel([44 * m, 4 * m, 5 * m], 1.0);
+    let mut scene = wheel(given::refined(setting.mesh), 1.0);
     scene.body.element = setting.element;
     scene.safety = setting.safety;
-    let down = press(Drive::Displacement { to: -2.2e-3, ramp: 0.02 });
-    let at = |to: f64| Drive::Velocity { to, ramp: 0.0 };
-    let [x, y] = if problem == Problem::Slip5 { [2.5801, 0.2257] } else { [2.59, 0.0] };
-    let rim = RimMotion { x: at(x), y: at(y), spin: at(70.0), ..HELD };
-    scene.stages = vec![down];
+    scene.stages = vec![press(down(given::DEPTH))];
     if problem != Problem::Static {
-        scene.body.viscosity = Some(20.0);
-        let start = Some(InitialVelocity::Rim);
-        scene.stages.push(Stage { initial_velocity: start, rim, ..explicit("roll", ROLL) });
+        scene.body.viscosity = Some(given::VISCOSITY);
+        let velocity = if problem == Problem::Slip5 { given::AT_5_DEGREES } else { given::STRAIGHT };
+        scene.stages.push(rolling(velocity, given::SPIN, ROLL));
     }
     scene
 }

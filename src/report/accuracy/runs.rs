@@ -10,8 +10,8 @@ use crate::engine::{Engine, Step};
 use crate::gpu::{self, Gpu, GpuEngine};
 use crate::model::Model;
 use crate::record::{Sample, Snapshot};
-use crate::report::bench::{block, hold};
-use crate::run::{self, Observer, Progress, stability};
+use crate::rig::{Recorder, block, hold, simulate_on};
+use crate::run::stability;
 use crate::scene::{Element, Scene};
 use crate::{Error, Result};
 
@@ -245,20 +245,6 @@ pub(super) fn engine<'a>(
     }
 }
 
-#[derive(Default)]
-struct Recorder(Vec<Sample>, Vec<Snapshot>);
-
-impl Observer for Recorder {
-    fn sample(&mut self, sample: &Sample, _: &Progress) -> Result<()> {
-        self.0.push(sample.clone());
-        Ok(())
-    }
-    fn snapshot(&mut self, snapshot: &Snapshot, _: &str) -> Result<()> {
-        self.1.push(snapshot.clone());
-        Ok(())
-    }
-}
-
 /// Runs the problem's wheel with output windows of `sample` [s].
 pub(super) fn rolled(
     problem: Problem,
@@ -272,8 +258,8 @@ pub(super) fn rolled(
     let model = Model::new(&scene)?;
     let mut engine = engine(setting, &model, &scene, threads, gpu)?;
     let mut recorder = Recorder::default();
-    let totals = run::run(&scene, &model, &mut *engine, &mut recorder)?;
-    let rows = &recorder.0;
+    let totals = simulate_on(&scene, &model, &mut *engine, &mut recorder)?;
+    let rows = &recorder.samples;
     let count = if problem == Problem::Static { 1 } else { (MEAN / scene.output.sample).round() as usize };
     let mean = |f: fn(&Sample) -> f64| rows[rows.len() - count..].iter().map(f).sum::<f64>() / count as f64;
     let value = match problem {
@@ -281,7 +267,7 @@ pub(super) fn rolled(
         Problem::Slip5 => mean(|s| s.road_fy_N),
         Problem::Static | Problem::Wave => mean(|s| s.road_fz_N),
     };
-    let field = recorder.1.last().map(|s| displacements(&model, s)).unwrap_or_default();
+    let field = recorder.snapshots.last().map(|s| displacements(&model, s)).unwrap_or_default();
     Ok(Run {
         value,
         area: mean(|s| s.contact_area_m2),

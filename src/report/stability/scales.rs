@@ -5,8 +5,8 @@ use crate::cpu::Precision;
 use crate::model::Model;
 use crate::output::{ContactScatter, Verdict};
 use crate::physics::material::NeoHookean;
-use crate::report::bench::{GROUND, HELD, Outcome, explicit, press, simulate_model, wheel};
 use crate::report::{Case, Claim};
+use crate::rig::{self, GROUND, Outcome, given, press, simulate_with, wheel};
 use crate::scene::*;
 
 /// Scatter above which a run is named: the default of `output.chatter_limit`.
@@ -14,6 +14,7 @@ const LIMIT: f64 = 0.05;
 
 pub const SIMILAR: Case = Case {
     name: "similarity",
+    theorem: "similar_wheels_have_similar_forces",
     title: "The same wheel, a thousand times smaller and larger, a million times softer and stiffer",
     source: "similarity: lengths s, moduli k, times s / sqrt(k), forces k s^2",
     setup: "24 x 3 x 3 wheel, viscous, pressed and rolled for 10 ms (of the original), single precision",
@@ -23,6 +24,7 @@ pub const SIMILAR: Case = Case {
 
 pub const FAR: Case = Case {
     name: "far_away",
+    theorem: "a_wheel_at_one_kilometre",
     title: "A wheel that starts at x = 1 km, in single precision",
     source: "nothing depends on where the road's origin is",
     setup: "24 x 3 x 3 wheel, viscous, pressed and rolled for 0.1 s",
@@ -32,6 +34,7 @@ pub const FAR: Case = Case {
 
 pub const LONG: Case = Case {
     name: "million_steps",
+    theorem: "a_million_steps",
     title: "A million steps of rolling",
     source: "steady rolling stays steady; balances close",
     setup: "24 x 3 x 3 wheel, mu = 1, straight, a million steps with 20 Pa s and as many without",
@@ -41,6 +44,7 @@ pub const LONG: Case = Case {
 
 pub const CHATTER: Case = Case {
     name: "chatter",
+    theorem: "elastic_rolling_is_named_as_chattering",
     title: "Elastic rolling chatters, and is named",
     source: "Adams 1995: constant friction on an elastic body is unstable at short wavelengths",
     setup: "24 x 3 x 3 wheel, mu = 1, straight, 0.5 s (25,000 steps) without viscosity and with 20 Pa s",
@@ -53,9 +57,9 @@ fn rolling(s: f64, k: f64, duration: f64, eta: f64) -> Scene {
     let (time, speed) = (s / k.sqrt(), k.sqrt());
     let mut scene = wheel([24, 3, 3], 1.0);
     scene.body.mesh = MeshSpec::Ring {
-        outer_radius: 0.039 * s,
-        inner_radius: 0.017 * s,
-        width: 0.0175 * s,
+        outer_radius: given::OUTER_RADIUS * s,
+        inner_radius: given::INNER_RADIUS * s,
+        width: given::WIDTH * s,
         elements: [24, 3, 3],
     };
     let Law::NeoHookean(NeoHookean { g0, g1 }) = scene.body.law else {
@@ -63,19 +67,16 @@ fn rolling(s: f64, k: f64, duration: f64, eta: f64) -> Scene {
     };
     scene.body.law = Law::NeoHookean(NeoHookean { g0: k * g0, g1: k * g1 });
     scene.body.viscosity = (eta > 0.0).then_some(eta * k * time);
-    let at = |to: f64| Drive::Velocity { to, ramp: 0.0 };
-    let mut down = press(Drive::Displacement { to: -2.2e-3 * s, ramp: 0.02 * time });
+    let mut down = press(Drive::Displacement { to: -given::DEPTH * s, ramp: given::PRESSING * time });
     (down.duration, down.mass_damping) = (0.2 * time, 3000.0 / time);
-    let rim = RimMotion { x: at(2.59 * speed), spin: at(70.0 / time), ..HELD };
-    let roll =
-        Stage { initial_velocity: Some(InitialVelocity::Rim), rim, ..explicit("roll", duration * time) };
+    let roll = rig::rolling([given::SPEED * speed, 0.0], given::SPIN / time, duration * time);
     scene.stages = vec![down, roll];
     scene.output.sample = 1e-3 * time;
     scene
 }
 
 fn run_in(scene: &Scene, precision: Precision) -> Result<Outcome> {
-    simulate_model(scene, Model::new(scene)?, precision)
+    simulate_with(scene, Model::new(scene)?, precision, 1)
 }
 
 /// Last forces over k s^2 [N].
@@ -164,7 +165,7 @@ fn long() -> Result<Vec<Claim>> {
         run_in(&rolling(1.0, 1.0, wanted * dt, eta), Precision::F64)
     };
     let viscous = steps(1e6, 20.0)?;
-    let rows: Vec<_> = viscous.stage("roll").collect();
+    let rows = viscous.stage("roll");
     let share = |from: f64, to: f64, f: fn(&crate::record::Sample) -> f64| {
         let [from, to] = [from, to].map(|s| (s * rows.len() as f64) as usize);
         rows[from..to].iter().map(|s| f(s)).sum::<f64>() / (to - from) as f64

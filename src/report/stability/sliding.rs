@@ -6,15 +6,16 @@
 //! not, and the error grows with the way slid. It is the step's all the same: it falls to a quarter when the step is halved,
 //! while the balance of works closes to round-off.
 
-use super::limits::sliding;
+use super::limits::{free_spin, sliding};
 use crate::Result;
 use crate::cpu::Precision;
-use crate::report::bench::{order, simulate_model};
 use crate::report::{Case, Claim};
+use crate::rig::{order, simulate_with};
 use crate::scene::Scene;
 
 pub const CASE: Case = Case {
     name: "sliding_energy",
+    theorem: "sliding_wheels_have_the_steps_energy_error",
     title: "Stored-energy error of a locked and of a spun wheel",
     source: "central differences: second order in the step; work and impulse of every force are booked",
     setup: "24 x 3 x 3 wheel, 20 Pa s, mu = 1, pressed, then dragged for 20 ms with omega = 0, or spun at three times the free \
@@ -25,11 +26,12 @@ pub const CASE: Case = Case {
 
 fn run() -> Result<Vec<Claim>> {
     let mut claims = Vec::new();
-    for (name, omega) in [("locked", 0.0), ("spun", 3.0 * 66.6)] {
+    for (name, omega) in [("locked", 0.0), ("spun", 3.0 * free_spin())] {
         let (scene, model) = sliding(omega)?;
         let mut errors = Vec::new();
         for safety in [0.9, 0.45, 0.225] {
-            let outcome = simulate_model(&Scene { safety, ..scene.clone() }, model.clone(), Precision::F64)?;
+            let outcome =
+                simulate_with(&Scene { safety, ..scene.clone() }, model.clone(), Precision::F64, 1)?;
             let ledger = &outcome.totals.ledger;
             errors.push(ledger.worst_stored_balance);
             claims.push(Claim::at_most(

@@ -2,13 +2,14 @@
 
 use crate::error::Error;
 use crate::model::Model;
-use crate::report::bench::{Driver, block, wheel};
 use crate::report::{Case, Claim};
+use crate::rig::{Driver, Random, block, largest, wheel};
 use crate::run::stability;
 use crate::{Result, scene};
 
 pub const SHARP: Case = Case {
     name: "critical_step",
+    theorem: "the_critical_step_is_sharp",
     title: "Steps of 0.5 to 1.03 of the critical one",
     source: "von Neumann: bounded below the critical step, exponential growth above",
     setup: "24 x 3 x 3 wheel, rim held, random velocities of 1 um/s, 4000 steps; the critical step of the reference \
@@ -19,6 +20,7 @@ pub const SHARP: Case = Case {
 
 pub const REFUSED: Case = Case {
     name: "inside_out",
+    theorem: "an_element_inside_out_is_refused",
     title: "A mesh with one element inside out",
     source: "det dX/dxi must be positive",
     setup: "block of 4 x 4 x 4 elements, one node pulled through the opposite face of element 21",
@@ -32,21 +34,16 @@ fn shaken(scene: &scene::Scene, share: f64) -> Result<f64> {
     let mut driver = Driver::new(&model, scene)?;
     let guess = stability::element_bound(&model)?;
     let critical = stability::assembled(&mut *driver.engine, &model, &model.mesh.nodes, guess, None)?.dt;
-    let mut state = 12_345u64;
-    let mut random = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    };
+    let mut random = Random::new(5);
     let rim = &model.mesh.rim;
-    let velocity = |n: usize| match rim.binary_search(&(n as u32)) {
+    let mut velocity = |n: usize| match rim.binary_search(&(n as u32)) {
         Ok(_) => [0.0; 3],
-        Err(_) => [0; 3].map(|_| 1e-6 * random()),
+        Err(_) => random.within(1e-6),
     };
-    let v: Vec<[f64; 3]> = (0..model.node_count()).map(velocity).collect();
+    let v: Vec<[f64; 3]> = (0..model.node_count()).map(&mut velocity).collect();
     driver.engine.set_velocity(&v, &[0.0; 6])?;
-    driver.advance(share * critical, 4000)?;
-    let top = |v: &[[f64; 3]]| v.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
-    Ok(top(&driver.engine.state()?.v) / top(&v))
+    driver.advance(std::iter::repeat_n(share * critical, 4000))?;
+    Ok(largest(&driver.engine.state()?.v) / largest(&v))
 }
 
 fn sharp() -> Result<Vec<Claim>> {

@@ -6,12 +6,13 @@
 
 use crate::Result;
 use crate::physics::road::Plane;
-use crate::report::bench::{DENSITY, G, KAPPA, block, hold, simulate};
 use crate::report::{Case, Claim};
+use crate::rig::{DENSITY, G, KAPPA, block, hold, simulate};
 use crate::scene::Road;
 
 pub const CASE: Case = Case {
     name: "bar_impact",
+    theorem: "a_bar_meets_a_wall_as_st_venant_says",
     title: "A bar meets a rigid wall, once and a hundred times",
     source: "St Venant's bar: force rho c v A for 2 L / c (Timoshenko & Goodier, sec. 168)",
     setup: "bar of 0.1 m, 200 elements of 0.5 mm, sides held, 0.1 m/s onto a wall; then 25 elements between gravity \

@@ -11,12 +11,13 @@
 
 use crate::Result;
 use crate::physics::material::NeoHookean;
-use crate::report::bench::{DENSITY, G, HELD, block, explicit, hold, simulate};
 use crate::report::{Case, Claim};
+use crate::rig::{DENSITY, G, HELD, block, explicit, hold, simulate};
 use crate::scene::{Drive, Element, Law, Method, Rim, RimMotion, Stage};
 
 pub const CASE: Case = Case {
     name: "bonded_strip",
+    theorem: "a_bonded_strip_does_not_lock",
     title: "Bonded rubber strip: no volumetric locking",
     source: "pressure method for bonded strips: Gent & Lindley 1959; Chalhoub & Kelly 1991",
     setup: "strip 40 mm wide, 2 mm thick, plane strain (y held), bottom held, top a rigid plate pressed by 0.1 %; \

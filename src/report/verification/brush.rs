@@ -7,12 +7,13 @@
 use crate::Result;
 use crate::physics::friction::Coulomb;
 use crate::physics::material::NeoHookean;
-use crate::report::bench::{G, GROUND, HELD, explicit, scene, simulate};
 use crate::report::{Case, Claim};
+use crate::rig::{G, GROUND, HELD, explicit, scene, simulate};
 use crate::scene::*;
 
 pub const CASE: Case = Case {
     name: "brush",
+    theorem: "a_thin_tread_is_a_brush",
     title: "Brush model: side force of a thin soft tread",
     source: "Pacejka, Tyre and Vehicle Dynamics, sec. 3.2",
     setup: "tread 1 mm thick on a rigid wheel of 39 mm, kappa = 2/3 G (no lateral strain), 10 mm wide, 600 x 2 x 2 \
@@ -21,7 +22,7 @@ pub const CASE: Case = Case {
     run,
 };
 
-const RADIUS: f64 = 0.039;
+const RADIUS: f64 = crate::rig::given::OUTER_RADIUS;
 const TREAD: f64 = 1e-3;
 const WIDTH: f64 = 0.01;
 const DEPTH: f64 = 1e-4;

@@ -12,12 +12,13 @@ use super::cylinder::{RADIUS, STIFF, half_width, press, relaxing, slice};
 use crate::Result;
 use crate::physics::friction::Coulomb;
 use crate::record::Sample;
-use crate::report::bench::{HELD, explicit, simulate};
 use crate::report::{Case, Claim};
+use crate::rig::{HELD, explicit, simulate};
 use crate::scene::{Drive, Friction, InitialVelocity, RimMotion, Stage};
 
 pub const CASE: Case = Case {
     name: "carter",
+    theorem: "a_rolling_cylinder_creeps_as_carter_says",
     title: "Carter: creep force of a rolling cylinder",
     source: "Carter 1926; Johnson, Contact Mechanics, sec. 8.3",
     setup: "the cylinder of the line contact, kappa / G = 100, mu = 0.3, viscosity 10 Pa s, pressed by 0.06 mm, wound up at \

@@ -10,12 +10,13 @@ use super::cylinder::{EDGE, STIFF, WIDTH, half_width, press, relaxing, slice};
 use crate::Result;
 use crate::physics::friction::Coulomb;
 use crate::record::{ContactState, Snapshot};
-use crate::report::bench::{HELD, Outcome, simulate};
 use crate::report::{Case, Claim};
+use crate::rig::{HELD, Outcome, simulate};
 use crate::scene::{Drive, Friction, RimMotion};
 
 pub const CASE: Case = Case {
     name: "cattaneo_mindlin",
+    theorem: "a_pressed_cylinder_pushed_sideways_slips_at_its_edges",
     title: "Cattaneo and Mindlin: partial slip under a tangential load",
     source: "Johnson, Contact Mechanics, sec. 7.2",
     setup: "the cylinder of the line contact, kappa / G = 100, mu = 0.3, pressed by 0.06 mm, its axle then moved sideways \

@@ -8,12 +8,13 @@ use crate::Result;
 use crate::model::Model;
 use crate::physics::element::hex8;
 use crate::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean, Yeoh};
-use crate::report::bench::{G, KAPPA, block};
 use crate::report::{Case, Claim};
+use crate::rig::{G, KAPPA, block};
 use crate::scene::{Element, Law};
 
 pub const CASE: Case = Case {
     name: "constitutive",
+    theorem: "every_law_has_its_closed_form_stresses_up_to_threefold_stretch",
     title: "One element stretched, sheared, compressed",
     source: "principal stresses of the energies (eqs. 4-6); Treloar's incompressible neo-Hookean solid",
     setup: "unit cube, one element, corner positions prescribed; uniaxial and equibiaxial stretch 0.3 to 3 with free \

@@ -2,11 +2,11 @@
 //! cases.
 
 use crate::physics::material::NeoHookean;
-use crate::report::bench::{G, GROUND, HELD, explicit, hold, scene};
+use crate::rig::{G, GROUND, HELD, explicit, hold, scene};
 use crate::scene::*;
 
 /// Outer and rim radius [m].
-pub const RADIUS: f64 = 0.039;
+pub const RADIUS: f64 = crate::rig::given::OUTER_RADIUS;
 pub const INNER: f64 = 0.027;
 /// kappa / G = 100 where friction matters: Dundurs' constant against a rigid plane is (1 - 2 nu) / (2 (1 - nu)) = 0.01.
 pub const STIFF: Law = Law::NeoHookean(NeoHookean { g0: 100.0 * G, g1: G });
@@ -69,7 +69,7 @@ pub fn press() -> Stage {
 
 /// E / (1 - nu^2) [Pa].
 pub fn plane_strain_modulus(law: &Law) -> f64 {
-    let [e, nu] = crate::report::bench::elastic_constants(law);
+    let [e, nu] = crate::rig::elastic_constants(law);
     e / (1.0 - nu * nu)
 }
 

@@ -5,11 +5,12 @@
 
 use super::cylinder::{WIDTH, half_width, press, slice};
 use crate::Result;
-use crate::report::bench::{RUBBER, simulate};
 use crate::report::{Case, Claim};
+use crate::rig::{RUBBER, simulate};
 
 pub const CASE: Case = Case {
     name: "hertz_line",
+    theorem: "a_pressed_cylinder_is_hertzs",
     title: "Hertz: line contact",
     source: "Johnson, Contact Mechanics, sec. 4.2",
     setup: "rubber cylinder (39 mm, rim at 27 mm, kappa / G = 25) in plane strain on a rigid plane, no friction, \

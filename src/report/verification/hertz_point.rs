@@ -8,12 +8,13 @@ use crate::Result;
 use crate::cpu::Precision;
 use crate::error::Error;
 use crate::model::Model;
-use crate::report::bench::{GROUND, HELD, RUBBER, block, elastic_constants, explicit, hold, simulate_model};
 use crate::report::{Case, Claim};
+use crate::rig::{GROUND, HELD, RUBBER, block, elastic_constants, explicit, hold, simulate_with};
 use crate::scene::*;
 
 pub const CASE: Case = Case {
     name: "hertz_point",
+    theorem: "a_pressed_ball_is_hertzs",
     title: "Hertz: point contact",
     source: "Johnson, Contact Mechanics, sec. 4.2",
     setup: "quarter block of 10 mm, its lower face a paraboloid of radius 50 mm, symmetry planes held, 24 x 24 x 20 \
@@ -54,7 +55,7 @@ fn run() -> Result<Vec<Claim>> {
         time: 0.0,
         element,
     })?;
-    let outcome = simulate_model(&scene, model, Precision::F64)?;
+    let outcome = simulate_with(&scene, model, Precision::F64, 1)?;
     let snapshot = &outcome.snapshots[0];
     let [e, nu] = elastic_constants(&RUBBER);
     // Four quarters make the ball.

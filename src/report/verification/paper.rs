@@ -1,12 +1,15 @@
 //! The paper's wheel: pressed, rolling straight, at 5 and at 45 degrees, against an independent program and other codes.
 
 use crate::Result;
-use crate::report::bench::{HELD, Outcome, explicit, press, simulate, wheel};
 use crate::report::{Case, Claim};
+use crate::rig::{
+    Outcome, Reference, column, down, given, press, reference, references, rolling, simulate, wheel,
+};
 use crate::scene::*;
 
 pub const STATIC: Case = Case {
     name: "paper_static",
+    theorem: "the_papers_wheel_carries_its_force",
     title: "The paper's wheel, pressed by 2.2 mm",
     source: "the paper (300 N, its own code and Abaqus); an independent f64 explicit program; OpenRadioss; Q2 elements",
     setup: "39 / 17 mm, 17.5 mm wide, 44 x 4 x 5 = 880 elements, G 2.64 MPa, kappa 65.1 MPa, mu = 1 and 0",
@@ -16,167 +19,109 @@ pub const STATIC: Case = Case {
 
 pub const ROLLING: Case = Case {
     name: "paper_rolling",
+    theorem: "the_papers_wheel_rolls_with_its_forces",
     title: "The paper's wheel, rolling at 70 rad/s and 2.59 m/s (2.69 m/s at 45 degrees)",
     source: "an independent f64 explicit program, means over the last 30 of 100 ms; OpenRadioss in brackets of the claim",
     setup: "as pressed; straight (elastic, viscous 20 Pa s), 5 degrees (viscous), mu = 1, and 45 degrees (viscous), mu = 0.5; equal corner masses",
     everyday: false,
-    run: rolling,
+    run: rolls,
 };
 
 pub const ORDER: Case = Case {
     name: "wheel_order",
+    theorem: "the_wheels_force_converges",
     title: "The pressed wheel's force under refinement",
-    source: "a static solver with graded quadratic hexahedra: 299.5 N (meshes 299.5 to 300.0) without friction",
+    source: "a static solver with graded quadratic hexahedra, finest of several meshes, without friction",
     setup: "mu = 0, q1p0: 44 x 4 x 5, 88 x 8 x 10, 132 x 12 x 15 elements",
     everyday: false,
     run: order,
 };
 
-const DEPTH: f64 = 2.2e-3;
-const DOWN: Drive = Drive::Displacement { to: -DEPTH, ramp: 0.02 };
-
 fn force(elements: [usize; 3], element: Element, mu: f64) -> Result<f64> {
     let mut scene = wheel(elements, mu);
     scene.body.element = element;
-    scene.stages = vec![press(DOWN)];
+    scene.stages = vec![press(down(given::DEPTH))];
     Ok(simulate(&scene)?.last().road_fz_N)
 }
 
 fn pressed() -> Result<Vec<Claim>> {
-    const REASON: &str = "two programs: settling, masses, windows";
-    let ug = Element::UniformGradient { hourglass: 0.15 };
+    let ug = Element::UniformGradient { hourglass: given::HOURGLASS };
     let mut claims = Vec::new();
-    for (name, element, mu, expected) in [
-        ("q1p0, mu = 1", Element::Q1p0, 1.0, 300.3),
-        ("q1p0, mu = 0", Element::Q1p0, 0.0, 283.9),
-        ("full, mu = 1", Element::Full, 1.0, 379.4),
-        ("uniform-gradient, mu = 1", ug, 1.0, 299.9),
-        ("uniform-gradient, mu = 0", ug, 0.0, 282.5),
+    for (name, element, mu, program, others) in [
+        (
+            "q1p0, mu = 1",
+            Element::Q1p0,
+            1.0,
+            "pressed-q1p0",
+            &[
+                ("the paper", "pressed-paper"),
+                ("OpenRadioss with constant pressure", "pressed-openradioss-constant-pressure"),
+            ][..],
+        ),
+        ("q1p0, mu = 0", Element::Q1p0, 0.0, "pressed-q1p0-frictionless", &[]),
+        (
+            "full, mu = 1",
+            Element::Full,
+            1.0,
+            "pressed-full",
+            &[("OpenRadioss, full integration", "pressed-openradioss-full")],
+        ),
+        ("uniform-gradient, mu = 1", ug, 1.0, "pressed-uniform-gradient", &[]),
+        ("uniform-gradient, mu = 0", ug, 0.0, "pressed-uniform-gradient-frictionless", &[]),
     ] {
-        let got = force([44, 4, 5], element, mu)?;
-        claims.push(Claim::relative(
-            format!("{name}: force, independent program"),
-            "N",
-            got,
-            expected,
-            0.01,
-            REASON,
-        ));
-        if name == "q1p0, mu = 1" {
-            claims.push(Claim::relative(
-                "q1p0, mu = 1: force, the paper",
-                "N",
-                got,
-                300.0,
-                0.01,
-                "its last digit",
-            ));
-            claims.push(Claim::relative(
-                "q1p0, mu = 1: force, OpenRadioss with constant pressure",
-                "N",
-                got,
-                305.4,
-                0.03,
-                "another element: reduced pressure, but not the mean dilatation",
-            ));
-        }
-        if name == "full, mu = 1" {
-            claims.push(Claim::relative(
-                "full, mu = 1: force, OpenRadioss, full integration",
-                "N",
-                got,
-                378.8,
-                0.01,
-                "the same element in another code",
-            ));
+        let got = force(given::MESH, element, mu)?;
+        for (who, run) in [&[("independent program", program)], others].concat() {
+            claims.push(Claim::reference(format!("{name}: force, {who}"), got, road_fz(run)));
         }
     }
     Ok(claims)
+}
+
+fn road_fz(run: &str) -> &'static Reference {
+    reference(&format!("{run}.road_fz"))
 }
 
 fn roll(eta: f64, mu: f64, velocity: [f64; 2]) -> Result<Outcome> {
-    let mut scene = wheel([44, 4, 5], mu);
+    let mut scene = wheel(given::MESH, mu);
     scene.body.lumping = Lumping::Equal;
     scene.body.viscosity = (eta > 0.0).then_some(eta);
-    let at = |to: f64| Drive::Velocity { to, ramp: 0.0 };
-    let rim = RimMotion { x: at(velocity[0]), y: at(velocity[1]), spin: at(70.0), ..HELD };
-    let roll = Stage { initial_velocity: Some(InitialVelocity::Rim), rim, ..explicit("roll", 0.1) };
-    scene.stages = vec![press(DOWN), roll];
+    scene.stages = vec![press(down(given::DEPTH)), rolling(velocity, given::SPIN, given::ROLLING)];
     simulate(&scene)
 }
 
-/// Column of a sample.
-type Column = fn(&crate::record::Sample) -> f64;
-
-fn rolling() -> Result<Vec<Claim>> {
-    const REASON: &str = "two programs; an undamped contact chatters, and moments have small arms";
+fn rolls() -> Result<Vec<Claim>> {
+    let viscous = given::VISCOSITY;
     let mut claims = Vec::new();
-    let fx: Column = |s| s.road_fx_N;
-    let fy: Column = |s| s.road_fy_N;
-    let fz: Column = |s| s.road_fz_N;
-    let my: Column = |s| s.rim_my_Nm;
-    let mz: Column = |s| s.rim_mz_Nm;
-    for (name, eta, mu, velocity, expected) in [
-        (
-            "straight, 20 Pa s",
-            20.0,
-            1.0,
-            [2.59, 0.0],
-            &[("Fx", fx, 120.1), ("Fz", fz, 306.3), ("My", my, 4.67)][..],
-        ),
-        (
-            "straight, elastic",
-            0.0,
-            1.0,
-            [2.59, 0.0],
-            &[("Fx", fx, 119.6), ("Fz", fz, 306.2), ("My", my, 4.64)],
-        ),
-        (
-            "5 degrees, 20 Pa s",
-            20.0,
-            1.0,
-            [2.5801, 0.2257],
-            &[("Fx", fx, 96.4), ("Fy", fy, -103.4), ("Fz", fz, 318.6), ("My", my, 3.66), ("Mz", mz, -0.226)],
-        ),
-        (
-            "45 degrees, 20 Pa s",
-            20.0,
-            0.5,
-            [1.9, 1.9],
-            &[("Fx", fx, 64.9), ("Fy", fy, -159.7), ("Fz", fz, 345.5), ("My", my, 2.66)],
-        ),
+    for (run, eta, mu, velocity) in [
+        ("straight-viscous", viscous, 1.0, given::STRAIGHT),
+        ("straight-elastic", 0.0, 1.0, given::STRAIGHT),
+        ("slip5-viscous", viscous, 1.0, given::AT_5_DEGREES),
+        ("slip45-viscous", viscous, 0.5, given::AT_45_DEGREES),
     ] {
         let outcome = roll(eta, mu, velocity)?;
-        for &(quantity, column, value) in expected {
-            let got = outcome.mean("roll", 0.3, column);
-            let tolerance = if quantity == "Mz" {
-                0.03
-            } else if eta == 0.0 {
-                0.02
-            } else {
-                0.01
-            };
-            let unit = if quantity.starts_with('M') { "N m" } else { "N" };
-            claims.push(Claim::relative(format!("{name}: {quantity}"), unit, got, value, tolerance, REASON));
+        for (quantity, expected) in references::quantities(run) {
+            if let Some(column) = column(quantity) {
+                let got = outcome.mean("roll", 0.3, column);
+                claims.push(Claim::reference(format!("{}: {quantity}", expected.what), got, expected));
+            }
         }
-        if eta == 0.0 {
-            // OpenRadioss, Isolid 17 with constant pressure: forces in proportion to its own static force.
-            let ratio = outcome.mean("roll", 0.3, fx) / outcome.mean("roll", 0.3, fz);
-            claims.push(Claim::relative(
-                "straight, elastic: Fx / Fz, OpenRadioss",
-                "",
-                ratio,
-                122.7 / 312.1,
-                0.02,
-                "its contact and start-up differ: ratios to its own load agree",
-            ));
+        if run == "straight-elastic" {
+            claims.push(ratio_of_forces(&outcome));
         }
     }
     Ok(claims)
 }
 
+/// OpenRadioss's forces in proportion to its own load.
+fn ratio_of_forces(outcome: &Outcome) -> Claim {
+    let [fx, fz] = ["road_fx", "road_fz"].map(|c| reference(&format!("straight-openradioss.{c}")));
+    let got = outcome.mean("roll", 0.3, |s| s.road_fx_N) / outcome.mean("roll", 0.3, |s| s.road_fz_N);
+    let expected = fx.value / fz.value;
+    Claim::relative("straight, elastic: Fx / Fz, OpenRadioss", "", got, expected, 0.02, &fx.reason)
+}
+
 fn order() -> Result<Vec<Claim>> {
-    let meshes = [[44, 4, 5], [88, 8, 10], [132, 12, 15]];
+    let meshes = [1, 2, 3].map(given::refined);
     let mut f = Vec::new();
     for mesh in meshes {
         f.push(force(mesh, Element::Q1p0, 0.0)?);
@@ -194,14 +139,15 @@ fn order() -> Result<Vec<Claim>> {
     let p = 0.5 * (low + high);
     let limit = f[2] + (f[2] - f[1]) / ((3.0f64 / 2.0).powf(p) - 1.0);
     Ok(vec![
-        Claim::relative("force on 88 x 8 x 10, independent program", "N", f[1], 299.5, 0.01, "two programs"),
-        Claim::relative(
+        Claim::reference(
+            "force on 88 x 8 x 10, independent program",
+            f[1],
+            road_fz("pressed-q1p0-7040-frictionless"),
+        ),
+        Claim::reference(
             "force extrapolated, quadratic elements",
-            "N",
             limit,
-            299.5,
-            0.01,
-            "a contact line that moves in whole elements: the fitted order is no more than an estimate",
+            road_fz("pressed-quadratic-frictionless"),
         ),
         Claim::at_least("fitted order", "", p, 1.0, "at least first order, as contact allows"),
     ])

@@ -5,13 +5,14 @@ use std::f64::consts::TAU;
 use crate::Result;
 use crate::model::Model;
 use crate::physics::tensor::{cross, sub};
-use crate::report::bench::{DENSITY, Driver, G, HELD, block, explicit, simulate, wheel};
 use crate::report::{Case, Claim};
+use crate::rig::{DENSITY, Driver, G, HELD, block, explicit, given, simulate, wheel};
 use crate::run::stability;
 use crate::scene::{Drive, Element, InitialVelocity, RimMotion, Stage};
 
 pub const CASE: Case = Case {
     name: "rotation",
+    theorem: "rigid_rotation_makes_no_force",
     title: "Ten turns of a free block; a wheel that rolls without load",
     source: "conservation of angular momentum; steady spin of an elastic body; an unloaded wheel pushes nothing",
     setup: "block of 20 mm, 4 x 4 x 4 elements, 200 rad/s about a skew axis, ten turns; the paper's wheel just \
@@ -44,7 +45,7 @@ fn ten_turns(element: Element) -> Result<[f64; 2]> {
     };
     let before = momentum(&mut driver)?;
     let dt = 0.9 * stability::element_bound(&model)?;
-    driver.advance(dt, (10.0 * TAU / SPIN / dt) as usize)?;
+    driver.advance(std::iter::repeat_n(dt, (10.0 * TAU / SPIN / dt) as usize))?;
     let after = momentum(&mut driver)?;
     let size = |a: [f64; 3]| a.iter().map(|c| c * c).sum::<f64>().sqrt();
     let x = driver.engine.state()?.x;
@@ -63,7 +64,7 @@ fn unloaded(element: Element) -> Result<f64> {
     let mut scene = wheel([44, 4, 5], 1.0);
     scene.body.element = element;
     let at = |to: f64| Drive::Velocity { to, ramp: 0.0 };
-    let rim = RimMotion { x: at(0.26), spin: at(0.26 / 0.039), ..HELD };
+    let rim = RimMotion { x: at(0.26), spin: at(0.26 / given::OUTER_RADIUS), ..HELD };
     scene.stages =
         vec![Stage { initial_velocity: Some(InitialVelocity::Rim), rim, ..explicit("roll", 0.01) }];
     let outcome = simulate(&scene)?;
@@ -78,7 +79,7 @@ fn run() -> Result<Vec<Claim>> {
     // Centrifugal load rho w^2 r over the half edge: a stretch of order rho (w L)^2 / (8 E), twice that let go at once.
     let stretch = DENSITY * (SPIN * 0.02f64).powi(2) / (8.0 * 3.0 * G);
     // The corners' circle is wider than the edge by sqrt(3); a wheel's rim speed is that of its roll.
-    let grown = DENSITY * 0.26f64.powi(2) * 0.039 * 0.0175;
+    let grown = DENSITY * 0.26f64.powi(2) * given::OUTER_RADIUS * given::WIDTH;
     for (name, element) in [
         ("q1p0", Element::Q1p0),
         ("full", Element::Full),

@@ -7,12 +7,13 @@
 use crate::Result;
 use crate::physics::friction::{PressureVelocity, Stribeck, Viscous};
 use crate::physics::road::Plane;
-use crate::report::bench::{GROUND, HELD, Outcome, block, explicit, simulate};
 use crate::report::{Case, Claim};
+use crate::rig::{GROUND, HELD, Outcome, block, explicit, simulate};
 use crate::scene::*;
 
 pub const CASE: Case = Case {
     name: "slider",
+    theorem: "a_slider_follows_its_equation_of_motion",
     title: "A slider with friction that depends on speed and pressure",
     source: "the equation of motion of a block, integrated in closed form",
     setup: "rubber block of 20 x 20 x 10 mm sliding on a level road; a flat block of 40 x 20 x 5 mm on a moving road; a pad \

@@ -5,13 +5,14 @@
 use crate::Result;
 use crate::model::Model;
 use crate::physics::friction::Coulomb;
-use crate::report::bench::{DENSITY, G, GROUND, Outcome, block, explicit, simulate};
 use crate::report::{Case, Claim};
+use crate::rig::{DENSITY, G, GROUND, Outcome, block, explicit, simulate};
 use crate::run::stability;
 use crate::scene::{Friction, Method, Scene, Stage};
 
 pub const CASE: Case = Case {
     name: "slope",
+    theorem: "a_block_slides_down_a_slope",
     title: "A block on a slope of 30 degrees",
     source: "Newton and Coulomb: a = g (sin th - mu cos th)",
     setup: "viscous rubber block (damping ratio 0.03 of its highest mode), 6 x 3 x 3 elements, 1 m, 0.1 m and 10 mm long, \

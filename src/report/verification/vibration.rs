@@ -7,13 +7,14 @@ use std::f64::consts::PI;
 
 use crate::Result;
 use crate::model::Model;
-use crate::report::bench::{DENSITY, Driver, G, block, order};
 use crate::report::{Case, Claim};
+use crate::rig::{DENSITY, Driver, G, block, order};
 use crate::run::stability;
 use crate::scene::Element;
 
 pub const CASE: Case = Case {
     name: "vibration",
+    theorem: "a_free_cube_vibrates_in_lames_mode",
     title: "Lame's mode of a free cube",
     source: "Lame 1852: w = sqrt(2) pi c_s / L",
     setup: "cube of 20 mm, 8 and 16 elements an edge, free; the mode as initial velocity, strain 1e-5, three periods",
@@ -53,7 +54,7 @@ fn frequency(element: Element, count: usize) -> Result<f64> {
     let mut zeros = Vec::new();
     let mut last: Option<(f64, f64)> = None;
     while driver.time < 3.3 * period {
-        driver.advance(dt, 4)?;
+        driver.advance([dt; 4])?;
         let now = (driver.time, amplitude(&mut driver)?);
         if let Some(before) = last.filter(|b| b.1 * now.1 < 0.0) {
             zeros.push(before.0 + (now.0 - before.0) * before.1 / (before.1 - now.1));

@@ -8,12 +8,13 @@ use std::f64::consts::PI;
 
 use crate::Result;
 use crate::model::Model;
-use crate::report::bench::{DENSITY, Driver, G, KAPPA, block, hold, order};
 use crate::report::{Case, Claim};
+use crate::rig::{DENSITY, Driver, G, KAPPA, block, hold, order};
 use crate::scene::Scene;
 
 pub const CASE: Case = Case {
     name: "waves",
+    theorem: "plane_waves_have_their_speed_order_and_dispersion",
     title: "Waves of dilatation and shear: speed, order, dispersion",
     source: "d'Alembert; dispersion of the semi-discrete wave equation (Belytschko, Liu, Moran, ch. 6)",
     setup: "bar of 1 m, elements of length h in one row, two of three components held everywhere; \
@@ -84,7 +85,7 @@ fn moved(
     driver.engine.set_velocity(&v, &[0.0; 6])?;
     let h = LENGTH / elements as f64;
     let count = (time * wave.speed / (courant * h) - 1e-9).ceil();
-    driver.advance(time / count, count as usize)?;
+    driver.advance(std::iter::repeat_n(time / count, count as usize))?;
     let x = driver.engine.state()?.x;
     let mut planes = vec![0.0; elements + 1];
     for (X, x) in model.mesh.nodes.iter().zip(&x) {
