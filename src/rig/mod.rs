@@ -2,6 +2,7 @@
 //! and `bench` use the same one. SI units.
 
 mod bodies;
+mod book;
 pub mod given;
 pub mod implicit;
 mod numbers;
@@ -13,6 +14,7 @@ pub use bodies::{
     ELEMENTS, EQ4, HELD, RUBBER, TWO_CONSTANTS, at_once, block, body, down, elastic_constants, explicit,
     hold, laws, laws_of, press, ring, rolling, scene, shipped, wheel,
 };
+pub use book::{book, by_the_book};
 pub use given::{BULK_MODULUS as KAPPA, DENSITY, SHEAR_MODULUS as G};
 pub use numbers::{Random, close, distort, largest, order, relative, times};
 pub use references::{Reference, reference};

@@ -9,7 +9,7 @@ use hexroll::gpu::Gpu;
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
 use hexroll::physics::parameters::Parameter;
-use hexroll::rig::{ELEMENTS, G, laws_of};
+use hexroll::rig::{ELEMENTS, G, by_the_book, laws_of};
 use hexroll::scene::{Body, Element, Law, MeshSpec, Scene};
 
 /// Relative L2 error of the forces. Single precision leaves 6e-8 of a coordinate of 30 mm, which is 2e-7 of an edge of
@@ -107,6 +107,10 @@ fn check(gpu: &Gpu, case: &Case, who: Who, body: &Body, tolerance: f64) {
         format!("{name}: {error:.1e}, CPU f32 {single:.1e}")
     });
     assert!(error < tolerance, "{name}: {error:.2e}");
+    if body.element == Element::Q1p0 && body.viscosity.is_none() {
+        let error = relative(&got, &by_the_book(&case.model(body), &case.x));
+        assert!(error < tolerance, "{name}: {error:.2e} from the textbook's");
+    }
     for (constant, mutant) in mutants(body) {
         let error = relative(&got, &case.forces(gpu, Who::Cpu64, &mutant));
         assert!(error > 5.0 * tolerance, "{name}: {constant} off and an error of only {error:.2e}");

@@ -14,6 +14,7 @@ mod composition;
 mod full;
 pub mod hex8;
 mod q1p0;
+pub mod textbook;
 mod uniform_gradient;
 
 pub use composition::{Compose, Composition};
