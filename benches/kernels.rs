@@ -6,13 +6,13 @@
 //! `critical`: the largest eigenvalue of 880 elements, from a cold start.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use hexroll::bench::wheel::{Roll, Wheel};
 use hexroll::cpu::{Precision, engine_at};
 use hexroll::model::Model;
 use hexroll::physics::lanes::Level;
-use hexroll::rig::laws;
 use hexroll::run::stability;
 use hexroll::scene::Scene;
+use hexroll_lab::bench::wheel::{Roll, Wheel};
+use hexroll_lab::rig::laws;
 use std::time::Duration;
 
 const PRECISIONS: [(Precision, &str); 2] = [(Precision::F64, "f64"), (Precision::F32, "f32")];

@@ -7,9 +7,9 @@ use hexroll::implicit::krylov::{BlockJacobi, Krylov, LinearSolver};
 use hexroll::implicit::matrix::{axpy, inverse, norm, times};
 use hexroll::implicit::multigrid::Multigrid;
 use hexroll::implicit::system::System;
-use hexroll::rig::given;
-use hexroll::rig::implicit::{first_increment, pressed_system, wheel};
 use hexroll::scene::Element;
+use hexroll_lab::rig::given;
+use hexroll_lab::rig::implicit::{first_increment, pressed_system, wheel};
 use std::time::Instant;
 
 /// Residual of the linear equations over their right-hand side.

@@ -38,7 +38,7 @@ failing() {
     for binary in "$@"; do
         [[ $binary == lib ]] && arguments+=(--lib) || arguments+=(--test "$binary")
     done
-    (cd "$copy" && cargo test --locked --no-fail-fast --target-dir ../build "${arguments[@]}" 2>&1) >target/mutants/log
+    (cd "$copy" && cargo test --workspace --locked --no-fail-fast --target-dir ../build "${arguments[@]}" 2>&1) >target/mutants/log
     grep -q '^error\(\[\|: could not compile\)' target/mutants/log && { cat target/mutants/log >&2; return 2; }
     # Names from the list at a binary's end, with the binary, which cargo announces before its tests.
     awk '$1 == "Running" { n = split($(NF - 1), part, "/"); sub(/\.rs$/, "", part[n])

@@ -8,9 +8,9 @@ cd "$(dirname "$0")/.."
 
 cargo build --release --locked || exit 1
 # Tests too long for every day (large linear systems, whole implicit rolling runs, fine meshes) are marked as ignored.
-cargo test --release --locked --test implicit -- --ignored --test-threads 1 || exit 1
-cargo test --release --locked --test rolling -- --ignored || exit 1
-cargo test --release --locked --test verification --test hard_cases -- --ignored || exit 1
+cargo test -p hexroll --release --locked --test implicit -- --ignored --test-threads 1 || exit 1
+cargo test -p hexroll --release --locked --test rolling -- --ignored || exit 1
+cargo test -p hexroll --release --locked --test verification --test hard_cases -- --ignored || exit 1
 hexroll() { cargo run --release --locked --quiet -- "$@"; }
 
 passed=0 failed=0 skipped=0

@@ -4,8 +4,6 @@
 #![allow(non_snake_case)] // F, J, W, N: the field's own symbols
 #![allow(rustdoc::broken_intra_doc_links)] // units are written [m], [N s]
 
-pub mod bench;
-pub mod cli;
 pub mod cpu;
 pub mod engine;
 pub mod error;
@@ -17,8 +15,6 @@ pub mod output;
 pub mod plot;
 pub mod record;
 pub mod render;
-pub mod report;
-pub mod rig;
 pub mod run;
 pub mod scene;
 pub mod study;

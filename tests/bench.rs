@@ -1,12 +1,5 @@
 //! The bench measures what it says: operations counted, floors by hand, records read back, wrong runs noticed.
 
-use hexroll::bench::counting::{Counted, Operations, count};
-use hexroll::bench::floor::{Bound, Limits, floor};
-use hexroll::bench::kind::Kind;
-use hexroll::bench::report::{Report, Row, Spread};
-use hexroll::bench::wheel::{Roll, Wheel, refinement};
-use hexroll::bench::work::{Pass, cpu_passes, element_operations, node_operations};
-use hexroll::bench::{chart, critical, markdown};
 use hexroll::cpu::{self, Precision};
 use hexroll::engine::State;
 use hexroll::model::Model;
@@ -14,9 +7,16 @@ use hexroll::physics::element::hex8::gram;
 use hexroll::physics::material::NeoHookean;
 use hexroll::physics::scalar::{Real, Scalar};
 use hexroll::physics::tensor::{Mat3, Metric, Sym3, cofactor, det, dot};
-use hexroll::rig::given::INNER_RADIUS;
-use hexroll::rig::{DENSITY, ELEMENTS, G, KAPPA, RUBBER, TWO_CONSTANTS, laws, reference, wheel};
 use hexroll::scene::{Element, Law};
+use hexroll_lab::bench::counting::{Counted, Operations, count};
+use hexroll_lab::bench::floor::{Bound, Limits, floor};
+use hexroll_lab::bench::kind::Kind;
+use hexroll_lab::bench::report::{Report, Row, Spread};
+use hexroll_lab::bench::wheel::{Roll, Wheel, refinement};
+use hexroll_lab::bench::work::{Pass, cpu_passes, element_operations, node_operations};
+use hexroll_lab::bench::{chart, critical, markdown};
+use hexroll_lab::rig::given::INNER_RADIUS;
+use hexroll_lab::rig::{DENSITY, ELEMENTS, G, KAPPA, RUBBER, TWO_CONSTANTS, laws, reference, wheel};
 
 /// Requirement: the counting scalar counts what is written, kind by kind; counts below are done by hand.
 #[test]

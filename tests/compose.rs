@@ -14,8 +14,8 @@ use hexroll::gpu::compose::{Choice, Composed as Program, Kernel, PARTS, RimKind}
 use hexroll::gpu::layout::{self, Real, Wgsl};
 use hexroll::gpu::{Counts, Precision, order};
 use hexroll::model::Model;
-use hexroll::rig::{ELEMENTS, Random, laws, shipped};
 use hexroll::scene::{Drive, Friction, Law};
+use hexroll_lab::rig::{ELEMENTS, Random, laws, shipped};
 use naga::{ArraySize, Block, Expression, Function, GlobalVariable, Handle, Module, Statement, TypeInner};
 
 /// No road, and every road without friction and with every friction law.

@@ -5,9 +5,9 @@ use hexroll::model::Model;
 use hexroll::physics::friction::Coulomb;
 use hexroll::physics::material::MooneyRivlin;
 use hexroll::physics::tensor::{Vec3, add, cross, scale, sub};
-use hexroll::rig::{self, Driver, ELEMENTS, GROUND, block, wheel};
 use hexroll::run::stability;
 use hexroll::scene::{Drive, Element, Friction, Law, Scene};
+use hexroll_lab::rig::{self, Driver, ELEMENTS, GROUND, block, wheel};
 
 /// Totals of a driven simulation.
 #[derive(Default)]

@@ -8,9 +8,9 @@ use hexroll::physics::node::StepSize;
 use hexroll::physics::road::Plane;
 use hexroll::physics::tensor::{axpy, dot, scale, sub};
 use hexroll::record::ContactState;
-use hexroll::rig::{self, GROUND, Outcome, Random, block, close, explicit, run, simulate_with};
 use hexroll::run::stability;
 use hexroll::scene::*;
+use hexroll_lab::rig::{self, GROUND, Outcome, Random, block, close, explicit, run, simulate_with};
 
 const GRAVITY: f64 = 9.81;
 

@@ -2,8 +2,8 @@
 
 use hexroll::cpu::Precision;
 use hexroll::model::Model;
-use hexroll::rig::{HELD, Outcome, explicit, press, simulate_with, wheel};
 use hexroll::scene::*;
+use hexroll_lab::rig::{HELD, Outcome, explicit, press, simulate_with, wheel};
 
 /// A coarse wheel (3 chunks of elements, 7 of nodes, so that threads share them unevenly, and half of the nodes are the
 /// rim's, so that they belong to more than one thread), pressed briefly, then rolled by a driven or a free rim.

@@ -5,9 +5,9 @@ use hexroll::model::Model;
 use hexroll::physics::road::{Drum, Plane};
 use hexroll::physics::tensor::{axpy, cross, dot, scale, sub};
 use hexroll::record::Sample;
-use hexroll::rig::given::{MESH, OUTER_RADIUS};
-use hexroll::rig::{GROUND, Random, close, down, explicit, largest, press, run, simulate_with, wheel};
 use hexroll::scene::*;
+use hexroll_lab::rig::given::{MESH, OUTER_RADIUS};
+use hexroll_lab::rig::{GROUND, Random, close, down, explicit, largest, press, run, simulate_with, wheel};
 
 /// A drum outside (1) or inside (-1) with its axis along y, through the origin there.
 fn drum(side: f64, radius: f64, angular_velocity: f64) -> Drum {

@@ -6,9 +6,9 @@ use hexroll::model::mesh::{Mesh, SIGNS};
 use hexroll::physics::element::{Class, Compose, Composition, Corners, Energy, Force, Formulation};
 use hexroll::physics::material::{Hyperelastic, Viscosity};
 use hexroll::physics::tensor::{Mat3, Vec3, add, cross, dot};
-use hexroll::rig::given::{DENSITY, INNER_RADIUS, OUTER_RADIUS, WIDTH};
-use hexroll::rig::{ELEMENTS, G, Random, block, close, largest, laws, times, wheel};
 use hexroll::scene::{Body, Element, Law, Lumping};
+use hexroll_lab::rig::given::{DENSITY, INNER_RADIUS, OUTER_RADIUS, WIDTH};
+use hexroll_lab::rig::{ELEMENTS, G, Random, block, close, largest, laws, times, wheel};
 
 const EDGE: f64 = 2e-3;
 const ETA: f64 = 20.0;

@@ -3,10 +3,10 @@
 use hexroll::cpu::Precision;
 use hexroll::model::Model;
 use hexroll::record::Sample;
-use hexroll::rig::given::{DEPTH, SPIN, STRAIGHT};
-use hexroll::rig::{down, press, rolling, simulate_with, wheel};
 use hexroll::run::Totals;
 use hexroll::scene::{Scene, Snapshots};
+use hexroll_lab::rig::given::{DEPTH, SPIN, STRAIGHT};
+use hexroll_lab::rig::{down, press, rolling, simulate_with, wheel};
 
 /// A coarse wheel pressed by 2.2 mm, and rolled for `duration` if that is not zero.
 fn scene(eta: f64, duration: f64) -> Scene {

@@ -5,8 +5,8 @@ use hexroll::physics::friction::{Coulomb, PressureVelocity, Sliding, StaticKinet
 use hexroll::physics::node::StepSize;
 use hexroll::physics::road::Plane;
 use hexroll::physics::tensor::{axpy, dot};
-use hexroll::rig::{Random, block, close, run};
 use hexroll::scene::{Friction, GROUND, Road};
+use hexroll_lab::rig::{Random, block, close, run};
 
 const STRIBECK: Friction = Friction::Stribeck(Stribeck { still: 1.2, kinetic: 0.7, speed: 0.1, slope: 0.05 });
 const FIT: Friction =

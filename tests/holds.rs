@@ -6,9 +6,9 @@ use hexroll::cpu::Precision;
 use hexroll::model::Model;
 use hexroll::physics::friction::Coulomb;
 use hexroll::physics::tensor::sub;
-use hexroll::rig::{Driver, GROUND, block, close, largest, simulate_with};
 use hexroll::run::stability;
 use hexroll::scene::{Friction, Hold, Scene};
+use hexroll_lab::rig::{Driver, GROUND, block, close, largest, simulate_with};
 
 fn hold(nodes: &str, components: [bool; 3]) -> Hold {
     Hold { nodes: nodes.into(), components }

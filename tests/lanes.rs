@@ -9,8 +9,8 @@ use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
 use hexroll::physics::lanes::{Array, InLanes, Instructions, Lanes, Level};
 use hexroll::physics::scalar::{Real, Scalar};
-use hexroll::rig::{ELEMENTS, block, laws, relative};
 use hexroll::scene::Scene;
+use hexroll_lab::rig::{ELEMENTS, block, laws, relative};
 
 /// Runs a check on the lanes of every level in both precisions, and on arrays.
 macro_rules! on_all_lanes {

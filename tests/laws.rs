@@ -5,8 +5,8 @@
 use hexroll::physics::element::hex8;
 use hexroll::physics::material::{Hyperelastic, KelvinVoigt, MooneyRivlin, Viscosity, WithLaw, Yeoh};
 use hexroll::physics::tensor::{Identity, Mat3, axpy, cofactor, det, dot};
-use hexroll::rig::{EQ4, G, KAPPA, RUBBER, Random, TWO_CONSTANTS, close, laws, times};
 use hexroll::scene::Law;
+use hexroll_lab::rig::{EQ4, G, KAPPA, RUBBER, Random, TWO_CONSTANTS, close, laws, times};
 
 struct EnergyAt<'a>(&'a Mat3<f64>);
 

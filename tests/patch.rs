@@ -6,8 +6,8 @@ use hexroll::model::Model;
 use hexroll::physics::element::hex8;
 use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean, Yeoh};
 use hexroll::physics::tensor::{Mat3, det};
-use hexroll::rig::{self, ELEMENTS, block, distort, largest, laws, times};
 use hexroll::scene::{Element, Law};
+use hexroll_lab::rig::{self, ELEMENTS, block, distort, largest, laws, times};
 
 const ETA: f64 = 20.0;
 const EDGE: f64 = 0.01;

@@ -1,11 +1,11 @@
-//! The paper's wheel has its numbers in one place, `src/rig/references.toml`.
+//! The paper's wheel has its numbers in one place, `src/lab/rig/references.toml`.
 //!
 //! Scenes, README and docs are read by people, so they repeat some of them. Requirement: what they repeat is what the file
 //! says, digit by digit, and no source file repeats any. Changing a number in the file fails here until the texts that state
 //! it have changed too.
 
-use hexroll::rig::given;
-use hexroll::rig::references::{self, Reference, reference, series};
+use hexroll_lab::rig::given;
+use hexroll_lab::rig::references::{self, Reference, reference, series};
 use std::path::{Path, PathBuf};
 
 fn root() -> &'static Path {
@@ -93,7 +93,7 @@ fn no_source_file_repeats_a_reference() {
     let known: Vec<&str> = references::all().map(digits).filter(|n| is_distinctive(n)).collect();
     assert!(known.len() > 60, "{} numbers that are looked for", known.len());
     for file in sources() {
-        if file.ends_with("src/rig/references.rs") || file.ends_with("tests/references.rs") {
+        if file.ends_with("src/lab/rig/references.rs") || file.ends_with("tests/references.rs") {
             continue;
         }
         let text = std::fs::read_to_string(&file).unwrap().replace('_', "");

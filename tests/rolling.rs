@@ -1,15 +1,15 @@
 //! Rolling forces as a tyre engineer reads them, on the shipped scenes: against an independent program, with the chatter
 //! of the contact force measured and named.
 //!
-//! Expected values and tolerances: `src/rig/references.toml` (means over the last 30 ms of 100 ms).
+//! Expected values and tolerances: `src/lab/rig/references.toml` (means over the last 30 ms of 100 ms).
 
 use hexroll::output::summary::StageMeans;
 use hexroll::output::{ContactScatter, Rolling, Verdict};
-use hexroll::rig::given::{self, AT_5_DEGREES, DEPTH, OUTER_RADIUS, SPEED, SPIN, WIDTH};
-use hexroll::rig::references::{self, Reference, reference};
-use hexroll::rig::{Outcome, close, run, shipped};
 use hexroll::scene::Scene;
 use hexroll::study::axis::Axis;
+use hexroll_lab::rig::given::{self, AT_5_DEGREES, DEPTH, OUTER_RADIUS, SPEED, SPIN, WIDTH};
+use hexroll_lab::rig::references::{self, Reference, reference};
+use hexroll_lab::rig::{Outcome, close, run, shipped};
 
 /// A shipped scene without snapshots, on a mesh of `factor` times the paper's counts.
 fn scene(stem: &str, factor: usize, sets: &[&str]) -> Scene {

@@ -9,10 +9,10 @@ use hexroll::cpu::{Precision, engine, engine_at};
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
 use hexroll::physics::lanes::Level;
-use hexroll::rig::{
+use hexroll::scene::{Drive, Element, Scene};
+use hexroll_lab::rig::{
     Driver, Random, block, distort, explicit, press, relative, shipped, simulate_with, wheel,
 };
-use hexroll::scene::{Drive, Element, Scene};
 
 /// Elements and nodes in random order.
 fn shuffled(mesh: &Mesh, random: &mut Random) -> Mesh {

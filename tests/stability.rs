@@ -3,10 +3,10 @@
 use hexroll::engine::State;
 use hexroll::error::Error;
 use hexroll::model::Model;
-use hexroll::rig::given::{DEPTH, VISCOSITY};
-use hexroll::rig::{self, Driver, Random, block, close, reference, wheel};
 use hexroll::run::stability::{self, Critical};
 use hexroll::scene::{Drive, Lumping, Scene};
+use hexroll_lab::rig::given::{DEPTH, VISCOSITY};
+use hexroll_lab::rig::{self, Driver, Random, block, close, reference, wheel};
 
 /// Critical step in the reference shape.
 fn at_rest(driver: &mut Driver, model: &Model) -> Critical {

@@ -10,8 +10,8 @@ use hexroll::model::Model;
 use hexroll::physics::element::{Class, Compose, Composition, Corners, Element, Formulation};
 use hexroll::physics::lanes::Level;
 use hexroll::physics::material::{Hyperelastic, Law, Viscosity};
-use hexroll::rig::{Random, block, book, by_the_book, distort, laws, relative};
 use hexroll::{cpu::Precision, scene::Scene};
+use hexroll_lab::rig::{Random, block, book, by_the_book, distort, laws, relative};
 
 struct Fast<'a> {
     class: &'a Class<f64>,

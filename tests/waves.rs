@@ -1,9 +1,9 @@
 //! Elastic waves in a bar: speed, shape and reflections.
 
 use hexroll::model::Model;
-use hexroll::rig::{DENSITY, Driver, G, KAPPA, block, close};
 use hexroll::run::stability;
 use hexroll::scene::{Rim, Scene};
+use hexroll_lab::rig::{DENSITY, Driver, G, KAPPA, block, close};
 
 /// A thin bar along x: 150 elements of 1 mm.
 const LENGTH: f64 = 0.15;

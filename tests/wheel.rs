@@ -1,16 +1,18 @@
 //! The paper's wheel, pressed and rolled, against an independent program (44 x 4 x 5 elements, a node row at the
 //! bottom).
 //!
-//! Expected values and tolerances: `src/rig/references.toml`. The independent program gave each corner an eighth of its
+//! Expected values and tolerances: `src/lab/rig/references.toml`. The independent program gave each corner an eighth of its
 //! element's mass, so the rolling runs here do too; row sums change Fx by 0.7 %.
 
 use hexroll::record::ContactState;
-use hexroll::rig::given::{
+use hexroll::scene::*;
+use hexroll_lab::rig::given::{
     AT_5_DEGREES, DEPTH, HOURGLASS, LOAD, MESH, OUTER_RADIUS, ROLLING, SPEED, SPIN, STRAIGHT, VISCOSITY,
 };
-use hexroll::rig::references::{Node, pressed_nodes};
-use hexroll::rig::{HELD, Outcome, at_once, close, down, explicit, press, reference, rolling, run, wheel};
-use hexroll::scene::*;
+use hexroll_lab::rig::references::{Node, pressed_nodes};
+use hexroll_lab::rig::{
+    HELD, Outcome, at_once, close, down, explicit, press, reference, rolling, run, wheel,
+};
 
 /// The wheel pressed down by `DEPTH` and relaxed.
 fn pressed(element: Element, mu: f64) -> Outcome {

@@ -8,8 +8,8 @@ use serde::Serialize;
 use super::choose::{LARGE, usable};
 use super::format::bytes;
 use super::terminal;
-use crate::Result;
-use crate::gpu::{AdapterReport, adapters};
+use hexroll::Result;
+use hexroll::gpu::{AdapterReport, adapters};
 
 #[derive(Debug, Args)]
 pub struct AdaptersArgs {

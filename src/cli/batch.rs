@@ -11,14 +11,14 @@ use super::format::{count, duration};
 use super::progress::Display;
 use super::recorder;
 use super::run::{Done, simulate, simulate_with};
-use crate::engine::EngineInfo;
-use crate::gpu::{Gpu, GpuEngine, adapters, ensemble};
-use crate::model::Model;
-use crate::output::read;
-use crate::output::summary::Summary;
-use crate::scene::Scene;
-use crate::study::axis::Changes;
-use crate::{Error, Result};
+use hexroll::engine::EngineInfo;
+use hexroll::gpu::{Gpu, GpuEngine, adapters, ensemble};
+use hexroll::model::Model;
+use hexroll::output::read;
+use hexroll::output::summary::Summary;
+use hexroll::scene::Scene;
+use hexroll::study::axis::Changes;
+use hexroll::{Error, Result};
 
 /// A run to be made, or found.
 pub struct Case {

@@ -6,15 +6,15 @@ use clap::{Args, ValueEnum};
 
 use super::choose::usable;
 use super::terminal;
-use crate::bench::critical::{self, CriticalReport};
-use crate::bench::kind::Kind;
-use crate::bench::record::{self, Record};
-use crate::bench::report::{Missing, Report};
-use crate::bench::rows::{self, Options, Order};
-use crate::bench::{machine::Machine, markdown, straight, wheel};
-use crate::gpu::{Gpu, adapters};
-use crate::physics::lanes::Level;
-use crate::{Error, Result};
+use hexroll::gpu::{Gpu, adapters};
+use hexroll::physics::lanes::Level;
+use hexroll::{Error, Result};
+use hexroll_lab::bench::critical::{self, CriticalReport};
+use hexroll_lab::bench::kind::Kind;
+use hexroll_lab::bench::record::{self, Record};
+use hexroll_lab::bench::report::{Missing, Report};
+use hexroll_lab::bench::rows::{self, Options, Order};
+use hexroll_lab::bench::{machine::Machine, markdown, straight, wheel};
 
 pub const HELP: &str = "\
 Times whole steps (forces, assembly, integration, contact, all works booked) of the paper's wheel while it rolls, on

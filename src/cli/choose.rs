@@ -4,12 +4,12 @@ use clap::{Args, ValueEnum};
 
 use super::estimate::{self, Steps};
 use super::format::{duration, updates};
-use crate::cpu;
-use crate::engine::Engine;
-use crate::gpu::{self, AdapterReport, Gpu, GpuEngine, adapters};
-use crate::model::Model;
-use crate::scene::Scene;
-use crate::{Error, Result};
+use hexroll::cpu;
+use hexroll::engine::Engine;
+use hexroll::gpu::{self, AdapterReport, Gpu, GpuEngine, adapters};
+use hexroll::model::Model;
+use hexroll::scene::Scene;
+use hexroll::{Error, Result};
 
 /// Engines a user can ask for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::terminal;
-use crate::Result;
-use crate::output::compare::compare;
+use hexroll::Result;
+use hexroll::output::compare::compare;
 
 pub const HELP: &str = "\
 Rows and snapshots are matched by stage and by time since the start of that stage; A is the reference.

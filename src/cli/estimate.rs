@@ -2,11 +2,11 @@
 
 use std::time::{Duration, Instant};
 
-use crate::Result;
-use crate::engine::Engine;
-use crate::model::Model;
-use crate::run::{Motion, stability};
-use crate::scene::{ImplicitScheme, Method, Scene, Stage};
+use hexroll::Result;
+use hexroll::engine::Engine;
+use hexroll::model::Model;
+use hexroll::run::{Motion, stability};
+use hexroll::scene::{ImplicitScheme, Method, Scene, Stage};
 
 /// Steps of a scene at the step that single elements allow.
 #[derive(Debug, Clone, serde::Serialize)]

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use image::{ImageFormat, RgbaImage};
 
-use crate::output::folder::write_whole;
-use crate::output::read::{self, SnapshotFile};
-use crate::render::{BodyView, DEFAULT_SIZE, FootprintStyle, FootprintView, Renderer, View};
-use crate::scene::{Field, Picture, Road};
-use crate::{Error, Result};
+use hexroll::output::folder::write_whole;
+use hexroll::output::read::{self, SnapshotFile};
+use hexroll::render::{BodyView, DEFAULT_SIZE, FootprintStyle, FootprintView, Renderer, View};
+use hexroll::scene::{Field, Picture, Road};
+use hexroll::{Error, Result};
 
 /// Fields by the names that scenes and arguments give them.
 pub const FIELDS: [(&str, Field); 7] = [

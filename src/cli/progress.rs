@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::format::{duration, si, updates};
-use crate::run;
+use hexroll::run;
 
 /// Parts the bar is divided into.
 const PARTS: u64 = 1000;

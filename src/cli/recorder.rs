@@ -4,10 +4,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use super::progress::Display;
-use crate::output::RunWriter;
-use crate::record::{NewtonRow, Sample, Snapshot};
-use crate::run::{Observer, Progress, Totals};
-use crate::{Error, Result};
+use hexroll::output::RunWriter;
+use hexroll::record::{NewtonRow, Sample, Snapshot};
+use hexroll::run::{Observer, Progress, Totals};
+use hexroll::{Error, Result};
 
 static STOP: AtomicBool = AtomicBool::new(false);
 

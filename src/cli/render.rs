@@ -7,10 +7,10 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::pictures::{self, FIELDS, Style, VIEWS};
 use super::terminal;
-use crate::output::read;
-use crate::render::{DEFAULT_SIZE, View};
-use crate::scene::{Field, Picture, Scene};
-use crate::{Error, Result};
+use hexroll::output::read;
+use hexroll::render::{DEFAULT_SIZE, View};
+use hexroll::scene::{Field, Picture, Scene};
+use hexroll::{Error, Result};
 
 pub const HELP: &str = "\
 Without --field and --footprint: the pictures that the scene asks for, or von Mises stress if it asks for none.

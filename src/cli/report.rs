@@ -6,11 +6,11 @@ use std::time::Instant;
 use clap::{Args, Subcommand};
 
 use super::terminal;
-use crate::bench::machine::Machine;
-use crate::report::accuracy::{self, Matrix, Measured, Problem};
-use crate::report::page::{self, Finding};
-use crate::report::{Case, stability, verification};
-use crate::{Error, Result};
+use hexroll::{Error, Result};
+use hexroll_lab::bench::machine::Machine;
+use hexroll_lab::report::accuracy::{self, Matrix, Measured, Problem};
+use hexroll_lab::report::page::{self, Finding};
+use hexroll_lab::report::{Case, stability, verification};
 
 pub const HELP: &str = "\
 Nothing is cached: every number is computed now, on this machine, and the page says on which.
@@ -225,7 +225,7 @@ fn matrix(args: &AccuracyArgs) -> Matrix {
 /// Command, machine, adapter, commit and day of a measurement that is made now.
 fn origin(measured: &Measured) -> String {
     let on_gpu = measured.rows.iter().any(|r| r.setting.machine.on_gpu());
-    let report = if on_gpu { crate::gpu::Gpu::open(None).ok().map(|gpu| gpu.report) } else { None };
+    let report = if on_gpu { hexroll::gpu::Gpu::open(None).ok().map(|gpu| gpu.report) } else { None };
     let m = Machine::describe(report.as_ref());
     let adapter = m.adapter.map_or(String::new(), |a| format!(", {a} ({})", m.driver.unwrap_or_default()));
     let load = m.load.map_or(String::new(), |l| format!(", load {l:.1} at the end"));

@@ -13,13 +13,13 @@ use super::recorder::{Recorder, listen_for_interrupts};
 use super::scene::SceneArgs;
 use super::terminal;
 use super::{table, warnings};
-use crate::engine::EngineInfo;
-use crate::model::Model;
-use crate::output::summary::{StageMeans, Versions, WorstBalance};
-use crate::output::{RunWriter, Summary};
-use crate::run::{self, Totals};
-use crate::scene::Scene;
-use crate::{Error, Result};
+use hexroll::engine::EngineInfo;
+use hexroll::model::Model;
+use hexroll::output::summary::{StageMeans, Versions, WorstBalance};
+use hexroll::output::{RunWriter, Summary};
+use hexroll::run::{self, Totals};
+use hexroll::scene::Scene;
+use hexroll::{Error, Result};
 
 pub const HELP: &str = "\
 Writes history.csv, snapshot_<k>.vtu, contact_<k>.csv, run.pvd, pictures and summary.json as it goes. Ctrl-C ends
@@ -196,7 +196,7 @@ impl Report<'_> {
 
     fn draw(&self) -> Result<usize> {
         let style = Style { title: self.scene.title.clone(), road: self.scene.road, ..Style::default() };
-        let stored = crate::output::read::snapshots(self.out)?;
+        let stored = hexroll::output::read::snapshots(self.out)?;
         let wanted: Vec<usize> = (0..stored.len()).collect();
         let drawn = pictures::draw(&stored, &wanted, &self.scene.output.pictures, &style, self.out)?;
         Ok(drawn.len())

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::scene::Scene;
-use crate::{Error, Result};
+use hexroll::scene::Scene;
+use hexroll::{Error, Result};
 
 /// A scene file with changes.
 #[derive(Debug, Args)]

@@ -10,11 +10,11 @@ use super::batch::{Case, run_all, settled, side_by_side};
 use super::choose::EngineArgs;
 use super::recorder::listen_for_interrupts;
 use super::terminal;
-use crate::output::folder::write_whole;
-use crate::scene::Scene;
-use crate::study::axis::Axis;
-use crate::study::report::{Run, Study};
-use crate::{Error, Result};
+use hexroll::output::folder::write_whole;
+use hexroll::scene::Scene;
+use hexroll::study::axis::Axis;
+use hexroll::study::report::{Run, Study};
+use hexroll::{Error, Result};
 
 pub const HELP: &str = "\
 Runs every scene on refined meshes (or with smaller time steps, or in several precisions) and writes a table and a
@@ -109,7 +109,7 @@ fn of_scene(args: &StudyArgs, file: &Path, axis: &Axis, engine: &EngineArgs) -> 
 }
 
 /// What a table calls a run: its mesh, or the value.
-fn label(axis: &Axis, value: &crate::study::axis::Value, scene: &Scene) -> String {
+fn label(axis: &Axis, value: &hexroll::study::axis::Value, scene: &Scene) -> String {
     if axis.key != "refine" {
         return value.text.clone();
     }

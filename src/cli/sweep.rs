@@ -9,10 +9,10 @@ use super::choose::{EngineArgs, EngineChoice, Precision};
 use super::recorder::listen_for_interrupts;
 use super::study::{axis, made_by, save_picture, save_text, stem};
 use super::terminal;
-use crate::scene::Scene;
-use crate::study::axis::{Axis, Value};
-use crate::study::sweep::{Point, Sweep};
-use crate::{Error, Result};
+use hexroll::scene::Scene;
+use hexroll::study::axis::{Axis, Value};
+use hexroll::study::sweep::{Point, Sweep};
+use hexroll::{Error, Result};
 
 pub const HELP: &str = "\
 Runs the scene for every combination of the values and writes one table and one plot: forces, moments, radii, footprint,

@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::format::{count, duration, si, updates};
-use crate::output::summary::{Errors, StageMeans, WorstBalance};
-use crate::output::{ContactScatter, Rolling, Summary, Verdict};
+use hexroll::output::summary::{Errors, StageMeans, WorstBalance};
+use hexroll::output::{ContactScatter, Rolling, Summary, Verdict};
 
 /// The table; `files` says what else is in the folder `out`.
 pub fn text(summary: &Summary, out: &Path, files: &str) -> String {

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use crate::{Error, Result};
+use hexroll::{Error, Result};
 
 /// Prints a result. A reader that has seen enough (`| head`) is no error.
 pub fn print(text: &str) -> Result<()> {

@@ -1,10 +1,10 @@
 //! What a user should know of a scene or a run before believing its numbers.
 
-use crate::model::Model;
-use crate::model::mesh::Ring;
-use crate::output::summary::{StageMeans, WorstBalance};
-use crate::output::{ContactScatter, Verdict};
-use crate::scene::{Drive, Element, Method, Scene};
+use hexroll::model::Model;
+use hexroll::model::mesh::Ring;
+use hexroll::output::summary::{StageMeans, WorstBalance};
+use hexroll::output::{ContactScatter, Verdict};
+use hexroll::scene::{Drive, Element, Method, Scene};
 
 /// Warnings that the scene and its mesh give without a run.
 pub fn of(scene: &Scene, model: &Model) -> Vec<String> {

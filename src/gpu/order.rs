@@ -176,7 +176,7 @@ fn near_order(mesh: &Mesh) -> Order {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::shuffle::shuffled;
+    use crate::model::shuffle::shuffled;
     use crate::scene::Scene;
     use std::path::Path;
 

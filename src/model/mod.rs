@@ -6,6 +6,7 @@ mod classes;
 mod forces;
 pub mod frame;
 pub mod mesh;
+pub mod shuffle;
 
 use crate::error::{Error, Result};
 use crate::physics::element::{Class, Composition};

@@ -19,7 +19,7 @@
 
 pub mod compare;
 pub mod contact;
-pub(crate) mod folder;
+pub mod folder;
 mod pvd;
 pub mod read;
 pub mod rolling;

@@ -36,16 +36,16 @@ impl ColourMap {
 }
 
 /// Text and axes [sRGB].
-pub(crate) const INK: [u8; 3] = [34, 38, 46];
+pub const INK: [u8; 3] = [34, 38, 46];
 /// Secondary text and ticks.
-pub(crate) const QUIET: [u8; 3] = [98, 104, 114];
+pub const QUIET: [u8; 3] = [98, 104, 114];
 /// Rigid parts: rim.
 pub(super) const RIGID: [u8; 3] = [176, 181, 189];
 /// The rim's disc.
 pub(super) const WEB: [u8; 3] = [203, 207, 213];
 /// Slipping nodes: vermilion of Okabe and Ito's set.
 pub(super) const SLIP: [u8; 3] = [213, 94, 0];
-pub(crate) const WHITE: [u8; 3] = [255, 255, 255];
+pub const WHITE: [u8; 3] = [255, 255, 255];
 
 /// An sRGB colour as linear light, as shaders and vertices carry it.
 pub(super) fn linear(colour: [u8; 3]) -> [f32; 3] {

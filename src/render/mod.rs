@@ -6,8 +6,8 @@
 
 mod body;
 mod camera;
-pub(crate) mod canvas;
-pub(crate) mod colour;
+pub mod canvas;
+pub mod colour;
 mod contact;
 mod field;
 mod footprint;

@@ -72,11 +72,18 @@ pub fn time_step(stored: f64, changing: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rig::block;
+    use crate::scene::Scene;
+    use std::path::Path;
+
+    fn block(size: &str, elements: &str) -> Model {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/spinning_block.toml");
+        let sets = [format!("body.mesh.size={size}"), format!("body.mesh.elements={elements}")];
+        Model::new(&Scene::load(&file, &sets).unwrap()).unwrap()
+    }
 
     #[test]
     fn edges_feel_a_stretch_and_no_rotation() {
-        let model = Model::new(&block([0.02, 0.01, 0.03], [2, 3, 4])).unwrap();
+        let model = block(r#"["20 mm", "10 mm", "30 mm"]"#, "[2, 3, 4]");
         let turned: Vec<[f64; 3]> = model.mesh.nodes.iter().map(|x| [1.0 - x[1], 2.0 + x[0], x[2]]).collect();
         // Lengths of coordinates near one: 1e-16 over edges of 3 mm.
         assert!(edge_stretch(&model, &turned) < 1e-12);
@@ -88,7 +95,7 @@ mod tests {
 
     #[test]
     fn precision_decides_the_class_of_rounding() {
-        let model = Model::new(&block([0.02; 3], [2; 3])).unwrap();
+        let model = block(r#"["20 mm", "20 mm", "20 mm"]"#, "[2, 2, 2]");
         let pulled: Vec<[f64; 3]> = model.mesh.nodes.iter().map(|x| [x[0], x[1], 1.03 * x[2]]).collect();
         let of = |precision| rounding(&model, precision, &pulled, 10_000).unwrap();
         // u = 6e-8 of 20 mm or less, a hundred of them over 20 mm, against 3 % / sqrt(3).

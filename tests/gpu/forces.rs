@@ -9,8 +9,8 @@ use hexroll::gpu::Gpu;
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
 use hexroll::physics::parameters::Parameter;
-use hexroll::rig::{ELEMENTS, G, by_the_book, laws_of};
 use hexroll::scene::{Body, Element, Law, MeshSpec, Scene};
+use hexroll_lab::rig::{ELEMENTS, G, by_the_book, laws_of};
 
 /// Relative L2 error of the forces. Single precision leaves 6e-8 of a coordinate of 30 mm, which is 2e-7 of an edge of
 /// 9 mm where strains are 0.1, and as much again in J - 1: about 2e-6. Measured 0.5e-6 to 2.5e-6, as on the CPU in f32,

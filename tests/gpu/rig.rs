@@ -8,7 +8,7 @@ use hexroll::physics::rim::Coordinates;
 use hexroll::run::{Motion, stability};
 use hexroll::scene::Scene;
 
-pub use hexroll::rig::{Random, relative, shipped as scene};
+pub use hexroll_lab::rig::{Random, relative, shipped as scene};
 
 /// Who computes. `Gpu` keeps plain f32 positions, `Plus` hi + lo pairs; `Double` is f64 on the device.
 #[derive(Debug, Clone, Copy, PartialEq)]

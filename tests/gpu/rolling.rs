@@ -5,7 +5,7 @@ use hexroll::gpu::Gpu;
 use hexroll::model::Model;
 use hexroll::output::{ContactScatter, Verdict};
 use hexroll::record::Sample;
-use hexroll::rig::{Recorder, simulate_on};
+use hexroll_lab::rig::{Recorder, simulate_on};
 
 /// Means of (Fx, Fz, My) over the last 30 ms, and what the scatter of the contact force says.
 fn means(gpu: &Gpu, who: Who, stem: &str) -> ([f64; 3], ContactScatter) {

@@ -1,8 +1,8 @@
 //! Hard cases: stable at the default settings, and where a run fails it says why. The same cases as
 //! `hexroll report stability`; those that are not for every day are ignored.
 
-use hexroll::report::Case;
-use hexroll::report::stability::{CASES, HARD, Hard, find};
+use hexroll_lab::report::Case;
+use hexroll_lab::report::stability::{CASES, HARD, Hard, find};
 use libtest_mimic::{Arguments, Failed, Trial};
 
 /// Searches the limit of a case; it must be as the case says.

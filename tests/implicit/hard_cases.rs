@@ -4,10 +4,10 @@ use hexroll::implicit::increments::Increments;
 use hexroll::implicit::{Failure, Inner, Limits, Scheme, Simulation};
 use hexroll::model::Model;
 use hexroll::physics::material::NeoHookean;
-use hexroll::rig::given::{DEPTH, MESH};
-use hexroll::rig::implicit::*;
-use hexroll::rig::{self, reference};
 use hexroll::scene::{Element, Law};
+use hexroll_lab::rig::given::{DEPTH, MESH};
+use hexroll_lab::rig::implicit::*;
+use hexroll_lab::rig::{self, reference};
 
 const LIMITS: Limits = Limits { tolerance: 1e-8, iterations: 25 };
 

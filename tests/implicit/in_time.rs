@@ -5,9 +5,9 @@ use hexroll::implicit::direct::Direct;
 use hexroll::implicit::problem::Problem;
 use hexroll::implicit::{Inner, Newton, Scheme, Simulation};
 use hexroll::model::Model;
-use hexroll::rig::RUBBER;
-use hexroll::rig::implicit::*;
 use hexroll::scene::{Element, MeshSpec};
+use hexroll_lab::rig::RUBBER;
+use hexroll_lab::rig::implicit::*;
 
 fn bar() -> Model {
     let mesh = MeshSpec::Block { size: [0.02, 0.02, 0.1], elements: [1, 1, 5] };

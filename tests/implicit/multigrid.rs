@@ -6,9 +6,9 @@ use hexroll::implicit::krylov::{Krylov, LinearSolver};
 use hexroll::implicit::multigrid::Multigrid;
 use hexroll::implicit::system::System;
 use hexroll::model::Model;
-use hexroll::rig::given;
-use hexroll::rig::implicit::{pressed_system, wheel};
 use hexroll::scene::Element;
+use hexroll_lab::rig::given;
+use hexroll_lab::rig::implicit::{pressed_system, wheel};
 
 /// The paper's wheel, `fineness` times its mesh in every direction, pressed.
 fn pressed(fineness: usize, mu: f64) -> (Model, System) {

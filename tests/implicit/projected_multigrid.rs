@@ -2,9 +2,9 @@
 
 use hexroll::implicit::{Limits, Scheme, Simulation};
 use hexroll::model::Model;
-use hexroll::rig::given::{self, DEPTH};
-use hexroll::rig::implicit::*;
 use hexroll::scene::Element;
+use hexroll_lab::rig::given::{self, DEPTH};
+use hexroll_lab::rig::implicit::*;
 
 const LIMITS: Limits = Limits { tolerance: 1e-9, iterations: 30 };
 

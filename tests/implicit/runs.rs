@@ -3,12 +3,12 @@
 use hexroll::cpu::CpuEngine;
 use hexroll::model::Model;
 use hexroll::record::{NewtonRow, Sample};
-use hexroll::rig::given::{DEPTH, LOAD, OUTER_RADIUS};
-use hexroll::rig::references::{self, reference, series};
-use hexroll::rig::{Recorder, close, column, shipped, simulate_on};
 use hexroll::run::Totals;
 use hexroll::scene::Scene;
 use hexroll::{Error, Result};
+use hexroll_lab::rig::given::{DEPTH, LOAD, OUTER_RADIUS};
+use hexroll_lab::rig::references::{self, reference, series};
+use hexroll_lab::rig::{Recorder, close, column, shipped, simulate_on};
 
 fn run(scene: &Scene) -> (Result<Totals>, Recorder) {
     let model = Model::new(scene).unwrap();

@@ -3,8 +3,8 @@
 
 use hexroll::implicit::assembly::Assembler;
 use hexroll::implicit::matrix::BlockMatrix;
-use hexroll::rig::implicit::{body, model};
-use hexroll::rig::{ELEMENTS, Random, laws, ring};
+use hexroll_lab::rig::implicit::{body, model};
+use hexroll_lab::rig::{ELEMENTS, Random, laws, ring};
 
 /// Vectors with components within `size`.
 fn noise(n: usize, size: f64) -> Vec<[f64; 3]> {

@@ -3,11 +3,11 @@
 use hexroll::implicit::contact::Status;
 use hexroll::implicit::relax::Relaxation;
 use hexroll::implicit::{Inner, Limits, Scheme, Simulation};
-use hexroll::rig::given::{DEPTH, LOAD, MESH};
-use hexroll::rig::implicit::*;
-use hexroll::rig::references::{Node, pressed_nodes};
-use hexroll::rig::{close, reference};
 use hexroll::scene::Element;
+use hexroll_lab::rig::given::{DEPTH, LOAD, MESH};
+use hexroll_lab::rig::implicit::*;
+use hexroll_lab::rig::references::{Node, pressed_nodes};
+use hexroll_lab::rig::{close, reference};
 
 /// Presses by 2.2 mm in equal increments; the logs' residuals.
 fn press(s: &mut Simulation<'_>, model: &hexroll::model::Model, steps: usize) -> Vec<Vec<f64>> {

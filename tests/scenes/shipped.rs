@@ -6,13 +6,13 @@ use hexroll::Error;
 use hexroll::physics::friction::Coulomb;
 use hexroll::physics::material::NeoHookean;
 use hexroll::physics::road::Plane;
-use hexroll::rig::at_once;
-use hexroll::rig::given::{
-    AT_5_DEGREES, AT_45_DEGREES, BULK_MODULUS, DENSITY, DEPTH, INNER_RADIUS, LOAD, MESH, OUTER_RADIUS,
-    PRESSING, ROLLING, SHEAR_MODULUS, SPIN, STRAIGHT, VISCOSITY, WIDTH,
-};
 use hexroll::scene::{
     Drive, Element, Friction, ImplicitScheme, InitialVelocity, Law, MeshSpec, Method, Rim, Road, Scene,
+};
+use hexroll_lab::rig::at_once;
+use hexroll_lab::rig::given::{
+    AT_5_DEGREES, AT_45_DEGREES, BULK_MODULUS, DENSITY, DEPTH, INNER_RADIUS, LOAD, MESH, OUTER_RADIUS,
+    PRESSING, ROLLING, SHEAR_MODULUS, SPIN, STRAIGHT, VISCOSITY, WIDTH,
 };
 
 fn folder() -> PathBuf {

@@ -71,7 +71,7 @@ fn imports_are_found_in_every_form() {
     assert!(has("run/stages.rs", "run/state.rs"), "use super::state::Run");
     assert!(has("run/explicit.rs", "run/footprint.rs"), "use super::footprint::{{self, ..}}");
     assert!(has("output/rolling.rs", "model/areas.rs"), "use crate::model::areas::..");
-    assert!(has("cli/mod.rs", "cli/run.rs"), "run::execute without a use");
+    assert!(has("cli/lib.rs", "cli/run.rs"), "run::execute without a use");
     assert!(has("physics/element/hex8.rs", "physics/element/mod.rs"), "super::SIGNS in an expression");
     assert!(has("render/body.rs", "model/mesh/mod.rs"), "through a folder's mod.rs");
     assert!(!has("run/mod.rs", "run/stages.rs"), "pub use hands on and imports nothing");

@@ -7,10 +7,7 @@ pub const LARGEST_CIRCLE: usize = 3;
 pub const FOLDERS: [(&str, &str, &str); 0] = [];
 
 /// Files of later folders that unit tests of earlier ones may use.
-pub const RIGS: [(&str, &str); 2] = [
-    ("rig/bodies.rs", "scenes for tests are made in one place"),
-    ("bench/shuffle.rs", "meshes with shuffled numbers are made in one place"),
-];
+pub const RIGS: [(&str, &str); 0] = [];
 
 /// Where circles of files may be larger, or cross folders: the beginning of all their paths.
 pub const CIRCLES: [(&str, &str); 1] =

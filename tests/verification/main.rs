@@ -3,8 +3,8 @@
 //! A page is a file of `src/report/verification`: source, body, loads, claims with their tolerances and reasons. Those
 //! that are not for every day are ignored.
 
-use hexroll::report::Case;
-use hexroll::report::verification::CASES;
+use hexroll_lab::report::Case;
+use hexroll_lab::report::verification::CASES;
 use libtest_mimic::{Arguments, Failed, Trial};
 
 /// Runs a page; every claim must hold.

@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use crate::model::Model;
-use crate::physics::parameters::{Parameter, Quantity};
-use crate::scene::{Element, Law, Lumping, Scene};
+use hexroll::model::Model;
+use hexroll::physics::parameters::{Parameter, Quantity};
+use hexroll::scene::{Element, Law, Lumping, Scene};
 
 /// The body as it is meshed.
 #[derive(Debug, Serialize)]

@@ -4,7 +4,7 @@ use std::fmt::{Display, Formatter, Result};
 
 use super::programs::{GpuPlan, Program};
 use super::{Body, Check, StagePlan};
-use crate::cli::format::{bytes, count, duration, plural, si, updates};
+use crate::format::{bytes, count, duration, plural, si, updates};
 
 impl Display for Check {
     fn fmt(&self, f: &mut Formatter) -> Result {

@@ -14,12 +14,12 @@ use super::estimate::{self, Steps};
 use super::scene::SceneArgs;
 use super::terminal;
 use super::warnings;
-use crate::Result;
-use crate::engine::Engine;
-use crate::gpu::adapters;
-use crate::model::Model;
-use crate::scene::Scene;
 use body::Body;
+use hexroll::Result;
+use hexroll::engine::Engine;
+use hexroll::gpu::adapters;
+use hexroll::model::Model;
+use hexroll::scene::Scene;
 use programs::GpuPlan;
 use stages::StagePlan;
 

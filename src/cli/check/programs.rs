@@ -6,13 +6,13 @@ use std::path::Path;
 use naga::{AddressSpace, Module, StorageAccess, TypeInner};
 use serde::Serialize;
 
-use crate::engine::StageSetup;
-use crate::gpu::chains::{self, Chains};
-use crate::gpu::compose::{Choice, Composed, Kernel, RimKind};
-use crate::gpu::{Counts, Precision, Shape, choice, order};
-use crate::model::Model;
-use crate::scene::{Drive, Scene};
-use crate::{Error, Result};
+use hexroll::engine::StageSetup;
+use hexroll::gpu::chains::{self, Chains};
+use hexroll::gpu::compose::{Choice, Composed, Kernel, RimKind};
+use hexroll::gpu::{Counts, Precision, Shape, choice, order};
+use hexroll::model::Model;
+use hexroll::scene::{Drive, Scene};
+use hexroll::{Error, Result};
 
 /// Threads and memory [bytes] of a work group that every GPU of a desktop has at least.
 const THREADS: usize = 1024;
@@ -70,7 +70,7 @@ impl GpuPlan {
     /// says.
     ///
     /// # Errors
-    /// [`Error::Io`](crate::Error::Io).
+    /// [`Error::Io`](hexroll::Error::Io).
     pub fn write_sources(&self, folder: &Path) -> Result<()> {
         std::fs::create_dir_all(folder).map_err(Error::io(folder, "make the folder"))?;
         let mut met: BTreeMap<&str, usize> = BTreeMap::new();
@@ -87,7 +87,7 @@ impl GpuPlan {
     }
 
     /// # Errors
-    /// [`Error::Device`](crate::Error::Device) if a program cannot be composed.
+    /// [`Error::Device`](hexroll::Error::Device) if a program cannot be composed.
     pub fn of(scene: &Scene, model: &Model) -> Result<GpuPlan> {
         let ordered = order::ordered(model);
         let model = &*ordered.model;

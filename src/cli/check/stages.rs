@@ -3,10 +3,10 @@
 use serde::Serialize;
 
 use super::Piece;
-use crate::cli::estimate::Steps;
-use crate::cli::format::si;
-use crate::model::mesh::NodeSets;
-use crate::scene::{
+use crate::estimate::Steps;
+use crate::format::si;
+use hexroll::model::mesh::NodeSets;
+use hexroll::scene::{
     Drive, Field, ImplicitScheme, InitialVelocity, Method, Picture, RimMotion, Scene, Slip, Snapshots, Stage,
 };
 
@@ -107,7 +107,7 @@ pub fn pieces(scene: &Scene, sets: &NodeSets) -> Vec<Piece> {
 }
 
 fn holds(scene: &Scene, sets: &NodeSets) -> String {
-    let hold = |h: &crate::scene::Hold| {
+    let hold = |h: &hexroll::scene::Hold| {
         let names: String =
             ['x', 'y', 'z'].iter().zip(h.components).filter_map(|(c, on)| on.then_some(c)).collect();
         format!("{names} of {}", sets.meaning(&h.nodes.name))
@@ -136,5 +136,5 @@ pub fn outputs(scene: &Scene) -> Vec<String> {
 }
 
 fn field_name(field: Field) -> &'static str {
-    crate::cli::pictures::FIELDS.iter().find(|(_, f)| *f == field).map_or("", |(name, _)| name)
+    crate::pictures::FIELDS.iter().find(|(_, f)| *f == field).map_or("", |(name, _)| name)
 }

@@ -1,0 +1,129 @@
+//! The command line: arguments in, files and tables out.
+//!
+//! Results go to stdout, progress and warnings to stderr; exit codes are those of
+//! [`Error::exit_code`](hexroll::Error::exit_code).
+
+#![allow(non_snake_case)] // F, J, W, N: the field's own symbols
+
+mod adapters;
+mod batch;
+mod bench;
+mod check;
+pub mod choose;
+mod compare;
+mod estimate;
+mod format;
+mod pictures;
+mod progress;
+mod recorder;
+mod render;
+mod report;
+mod run;
+mod scene;
+mod study;
+mod sweep;
+mod table;
+mod terminal;
+mod warnings;
+
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser, Subcommand};
+
+use hexroll::Result;
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    done
+  2    a wrong argument, or a scene that cannot be used: the message names file, line and key
+  3    something a scene may name one day, but that this version does not have
+  4    no usable GPU adapter, one too small for the scene, or one that failed
+  5    the run failed numerically (an element inverted, a value not finite, a stage that did not settle)
+  6    a file or folder that cannot be read or written, or holds something else
+  130  interrupted: everything computed so far is on disk";
+
+const EXAMPLES: &str = "\
+Examples:
+  hexroll check scenes/lat100_straight.toml
+  hexroll run scenes/lat100_straight.toml
+  hexroll render runs/lat100_straight --view side --field pressure
+  hexroll run scenes/lat100_straight.toml --set body.element=full --out runs/full
+  hexroll compare runs/lat100_straight runs/full
+  hexroll study scenes/lat100_straight_viscous.toml --refine 1,2,3
+  hexroll sweep scenes/lat100_slip5_viscous.toml --over slip-angle=-10:10:9";
+
+/// Rubber wheels of eight-node hexahedra, rolling and sliding on rigid roads: explicit dynamics on the GPU and the CPU.
+#[derive(Debug, Parser)]
+#[command(name = "hexroll", version, after_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Simulate a scene and write histories, fields, pictures and a summary
+    #[command(after_help = run::HELP)]
+    Run(run::RunArgs),
+    /// Say what would be modelled and what it would cost; runs nothing
+    #[command(after_help = check::HELP)]
+    Check(check::CheckArgs),
+    /// Draw pictures from the folder of a finished or killed run
+    #[command(after_help = render::HELP)]
+    Render(render::RenderArgs),
+    /// Run scenes on refined meshes: tables with extrapolated values and error bars
+    #[command(after_help = study::HELP)]
+    Study(study::StudyArgs),
+    /// Run a scene over slip angles, loads or any of its keys: one table, one plot
+    #[command(after_help = sweep::HELP)]
+    Sweep(sweep::SweepArgs),
+    /// Errors between two runs of one mesh, history by history and field by field
+    #[command(after_help = compare::HELP)]
+    Compare(compare::CompareArgs),
+    /// Measure what can be believed: claims against closed forms, limits of stability, speed against error
+    #[command(after_help = report::HELP)]
+    Report(report::ReportArgs),
+    /// List the GPU adapters, their limits, and the one that `--engine auto` takes
+    Adapters(adapters::AdaptersArgs),
+    /// Time every engine against the machine's measured limits
+    #[command(after_help = bench::HELP)]
+    Bench(bench::BenchArgs),
+}
+
+impl Cli {
+    /// The process's own arguments; help, version and mistakes in them end the process (0, 0, 2).
+    pub fn from_arguments() -> Cli {
+        let cli = Cli::parse();
+        let engine = match &cli.command {
+            Command::Run(args) => Some(&args.engine),
+            Command::Study(args) => Some(&args.engine),
+            Command::Sweep(args) => Some(&args.engine),
+            _ => None,
+        };
+        let own = match &cli.command {
+            Command::Sweep(args) => args.conflict(),
+            _ => None,
+        };
+        if let Some(conflict) = engine.and_then(|e| e.conflict()).or(own) {
+            Cli::command().error(ErrorKind::ArgumentConflict, conflict).exit();
+        }
+        cli
+    }
+
+    /// Does what was asked.
+    ///
+    /// # Errors
+    /// Whatever ends a command: see [`Error`](hexroll::Error).
+    pub fn execute(self) -> Result<()> {
+        match self.command {
+            Command::Run(args) => run::execute(&args),
+            Command::Check(args) => check::execute(&args),
+            Command::Render(args) => render::execute(&args),
+            Command::Study(args) => study::execute(&args),
+            Command::Sweep(args) => sweep::execute(&args),
+            Command::Compare(args) => compare::execute(&args),
+            Command::Report(args) => report::execute(&args),
+            Command::Adapters(args) => adapters::execute(&args),
+            Command::Bench(args) => bench::execute(&args),
+        }
+    }
+}
