@@ -68,15 +68,22 @@ fn the_gap_keeps_its_digits_however_large_the_drum() {
     }
 }
 
-/// The wheel pressed on a road that moves below it, its axle held, mean forces over the last 2 ms of 4.
-fn rolled(road: Road, precision: Precision) -> [f64; 3] {
-    let mut scene = wheel(MESH, 1.0);
+/// A viscous wheel pressed by 1 mm within 2 ms and rolled by its rim for 6 ms, its axle held.
+fn rolling_on(road: Road, elements: [usize; 3], mu: f64, spin: f64) -> Scene {
+    let mut scene = wheel(elements, mu);
     scene.road = Some(road);
-    let mut roll = explicit("roll", 4e-3);
-    roll.rim.spin = Drive::Velocity { to: 26.0, ramp: 1e-3 };
-    roll.rim.z = Drive::Displacement { to: -1e-3, ramp: 1e-3 };
-    scene.stages = vec![press(down(1e-3)), roll];
+    scene.body.viscosity = Some(20.0);
+    let mut roll = explicit("roll", 6e-3);
+    roll.rim.spin = Drive::Velocity { to: spin, ramp: 1e-3 };
+    roll.rim.z = Drive::Displacement { to: -1e-3, ramp: 2e-3 };
+    scene.stages = vec![roll];
     scene.output.sample = 5e-4;
+    scene
+}
+
+/// Mean forces of it over the last 3 ms.
+fn rolled(road: Road, precision: Precision) -> [f64; 3] {
+    let scene = rolling_on(road, MESH, 1.0, 26.0);
     let model = Model::new(&scene).unwrap();
     let outcome = simulate_with(&scene, model, precision, 1).expect("the scene runs");
     let columns: [fn(&Sample) -> f64; 3] = [|s| s.road_fx_N, |s| s.road_fz_N, |s| s.rim_my_Nm];
@@ -111,23 +118,21 @@ fn curvature_changes_the_load_as_hertz_says() {
     };
     let flat = load(GROUND);
     let [outside, inside] = [1.0, -1.0].map(|side| load(Road::Drum(drum(side, 0.15, 0.0))));
-    // A ring on a chord: the half-width at an indentation goes as the root of the relative radius, 1/R = 1/R1 +- 1/R2, and
-    // so does the load at a mean pressure that the radius hardly changes: (1 + 0.26)^-1/2 = 0.89, (1 - 0.26)^-1/2 = 1.16.
     let (less, more) = (outside / flat, inside / flat);
-    assert!((0.84..0.94).contains(&less) && (1.08..1.24).contains(&more), "{less} {more} of {flat} N");
+    // Hertz: what counts is the relative curvature 1/R1 +- 1/R2, here 26 % more or less. To first order in it the two
+    // change the load by opposite shares; what is left is of second order, some 0.26^2 / 4.
+    assert!(less < 0.97 && more > 1.03, "{less} {more} of {flat} N");
+    assert!((less + more - 2.0).abs() < 0.02, "{less} {more} of {flat} N");
 }
 
 /// Friction on a turning drum: what its motion puts in, less what it does on the body, is dissipated, and the balance closes.
 #[test]
 fn energies_on_a_turning_drum_add_up() {
-    let mut scene = wheel([44, 4, 2], 0.6);
-    scene.road = Some(Road::Drum(drum(1.0, 0.2, -20.0)));
-    scene.stages = vec![press(down(1e-3)), explicit("slide", 4e-3)];
-    scene.output.sample = 5e-4;
+    // The rim does not turn: every node slides.
+    let scene = rolling_on(Road::Drum(drum(1.0, 0.2, -20.0)), [44, 4, 2], 0.6, 0.0);
     let outcome = run(&scene);
-    let rows = outcome.stage("slide");
-    let first = rows[0];
-    let last = outcome.last();
+    let rows = &outcome.samples[outcome.samples.len() / 2..];
+    let (first, last) = (&rows[0], outcome.last());
     let dissipated = |s: &Sample| s.road_work_J - s.friction_work_J;
     let lost = dissipated(last) - dissipated(first);
     // All nodes slide under the held wheel: friction force times the way of the surface, 4 m/s.

@@ -184,10 +184,11 @@ fn rounding_of_a_stuck_node_is_no_slip() {
     }
 }
 
-/// A block on a slope: below the static angle it stays, above it slides with g (sin - mu_kinetic cos).
+/// A block that is let go on a slope: it stays where even the kinetic coefficient holds it, and slides with
+/// g (sin - mu_kinetic cos) where not even the static one does. (Between the two its landing decides.)
 #[test]
 fn a_block_slides_down_a_slope_by_its_kinetic_coefficient() {
-    for (tangent, slides) in [(0.9f64, false), (1.1, true)] {
+    for (tangent, slides) in [(0.5f64, false), (1.1, true)] {
         let (sin, cos) = tangent.atan().sin_cos();
         let mut scene = block([0.02, 0.02, 0.005], [4, 4, 1]);
         scene.body.viscosity = Some(200.0);
@@ -200,7 +201,7 @@ fn a_block_slides_down_a_slope_by_its_kinetic_coefficient() {
         let last = outcome.snapshots.last().unwrap();
         let speed = last.v.iter().map(|v| v[0]).sum::<f64>() / last.v.len() as f64;
         if slides {
-            // The block lands at once, swings for some 2 ms, then falls freely along the slope.
+            // It lands at once, swings for some 2 ms, then falls freely along the slope.
             close("speed", speed, 9.81 * (sin - 0.6 * cos) * 0.02, 0.06);
         } else {
             assert!(speed.abs() < 1e-4, "{speed} m/s");

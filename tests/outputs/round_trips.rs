@@ -12,7 +12,7 @@ use crate::fixtures::*;
 const HEADER: &str = "time_s,stage,road_fx_N,road_fy_N,road_fz_N,road_fx_std_N,road_fy_std_N,road_fz_std_N,\
                       rim_fx_N,rim_fy_N,rim_fz_N,rim_mx_Nm,rim_my_Nm,rim_mz_Nm,axle_x_m,axle_y_m,axle_z_m,\
                       rim_angle_rad,steer_rad,camber_rad,contact_area_m2,contact_nodes,sticking_share,\
-                      changing_share,footprint_length_m,footprint_width_m,peak_pressure_Pa,kinetic_J,strain_J,hourglass_J,external_work_J,friction_work_J,\
+                      changing_share,footprint_length_m,footprint_width_m,peak_pressure_Pa,kinetic_J,strain_J,hourglass_J,external_work_J,friction_work_J,road_work_J,\
                       contact_work_J,damping_work_J,viscous_work_J,balance_error_J,stored_balance_error_J,\
                       min_jacobian,dt_s";
 

@@ -270,7 +270,7 @@ fn an_impossible_body_is_refused() {
                 "either the moduli",
             ),
         ),
-        (1, (CONSTANTS, SUM, "body.material.g1", "shear modulus 0 Pa is not", "with a positive sum")),
+        (1, (CONSTANTS, SUM, "body.material.g1", "shear modulus 0 Pa is not", "a larger g1")),
         (3, (MATERIAL, NEO, "body.material.g2", "neo-hookean has no g2", "remove the key")),
     ];
     LATER.into_iter().for_each(|(lines, mistake)| check_at(line_of(mistake.0) + lines, mistake));
@@ -454,7 +454,7 @@ fn what_comes_later_is_called_unavailable_not_unknown() {
         assert!(shown.contains(what) && shown.contains(instead), "{shown}");
         assert_eq!(error.exit_code(), 3);
     }
-    let text = GOOD.replace("shape = \"plane\"", "shape = \"drum\"");
+    let text = GOOD.replace("shape = \"plane\"", "shape = \"disk\"");
     let shown = Scene::parse(&text, "bad.toml", &[]).unwrap_err().to_string();
     let line = line_of("shape =");
     assert!(shown.starts_with(&format!("bad.toml:{line}: road.shape")), "{shown}");

@@ -21,6 +21,8 @@ pub struct Source {
 /// All files of the crate by module.
 pub struct Sources {
     files: BTreeMap<Vec<String>, Source>,
+    /// Where the crates of this repository are, by the names that code has for them.
+    crates: BTreeMap<String, Vec<String>>,
     /// Names that a module hands on from elsewhere: `pub use`.
     facades: BTreeMap<Vec<String>, BTreeMap<String, Vec<String>>>,
 }
@@ -53,13 +55,19 @@ impl Sources {
             let root = crates.iter().map(|part| part.to_string_lossy().into_owned()).collect();
             files.insert(module.clone(), Source { path: name, module, root, product, tests });
         }
-        let mut sources = Sources { files, facades: BTreeMap::new() };
+        let crates =
+            paths.iter().filter(|p| p.ends_with("Cargo.toml")).map(|p| named_crate(root, p)).collect();
+        let mut sources = Sources { files, crates, facades: BTreeMap::new() };
         for source in sources.files.values() {
             let handed = paths_of(&source.product, "pub use ");
             let absolute =
                 |(name, path): (String, Vec<String>)| (name, sources.absolute(source, &source.module, path));
             let names = handed.into_iter().filter_map(|path| Some((path.last()?.clone(), path)));
-            let facade = names.map(absolute).collect();
+            let aliases = sources.crates.iter().filter_map(|(name, module)| {
+                let (_, rest) = source.product.split_once(&format!("use {name} as "))?;
+                Some((rest.split(';').next()?.trim().to_string(), module.clone()))
+            });
+            let facade = names.map(absolute).chain(aliases).collect();
             sources.facades.insert(source.module.clone(), facade);
         }
         sources
@@ -115,8 +123,9 @@ impl Sources {
                     at.pop();
                 }
             }
+            Some(first) if self.crates.contains_key(first) => at = self.crates[first].clone(),
             Some(first) => {
-                // A child of this module, or another crate.
+                // A child of this module, or a crate from elsewhere.
                 let mut child = at.clone();
                 child.push(first.into());
                 if !self.files.contains_key(&child) {
@@ -156,6 +165,15 @@ impl Sources {
 
 fn import(source: &Source, to: &str, in_tests: bool) -> Import {
     Import { from: source.path.clone(), to: to.into(), in_tests }
+}
+
+/// The name that code has for a crate, and its module.
+fn named_crate(root: &Path, manifest: &Path) -> (String, Vec<String>) {
+    let text = fs::read_to_string(manifest).expect("it can be read");
+    let name = text.lines().find_map(|line| line.strip_prefix("name = \"")?.strip_suffix('"'));
+    let folder = manifest.parent().and_then(|folder| folder.strip_prefix(root).ok()).expect("it is below");
+    let module = folder.iter().map(|part| part.to_string_lossy().into_owned()).collect();
+    (name.expect("a crate has a name").replace('-', "_"), module)
 }
 
 pub fn walk(folder: &Path, paths: &mut Vec<PathBuf>) {

@@ -213,9 +213,13 @@ fn compose(entry: &str, filled: &[Filled], real: Real) -> Result<Composed> {
     Ok(Composed { parts, text: join(&reached, &numbered), module })
 }
 
-/// Names that the language gives; `f64` is naga's.
+/// Names that the language gives. naga lists them but for short ones of vectors and matrices (`vec3f`), and its own `f64`.
 fn is_of_wgsl(name: &str) -> bool {
-    BUILTIN_IDENTIFIER_SET.contains(name) || RESERVED_SET.contains(name) || name == "f64"
+    let long = match name.strip_suffix(['f', 'h', 'i', 'u']) {
+        Some(long) if long.starts_with("vec") || long.starts_with("mat") => long,
+        _ => name,
+    };
+    BUILTIN_IDENTIFIER_SET.contains(long) || RESERVED_SET.contains(name) || name == "f64"
 }
 
 /// WGSL of what is reached, part by part.

@@ -78,8 +78,8 @@ impl Surface for Drum {
         self.axis.map(|a| along_axis && a != 0.0)
     }
 
-    fn leaves_alone(&self, direction: usize) -> bool {
-        self.invariant()[direction]
+    fn acts_along(&self, direction: usize) -> Option<&'static str> {
+        (!self.invariant()[direction]).then_some("the drum's normal points")
     }
 
     /// Arc length from `point`, and length along the axis.

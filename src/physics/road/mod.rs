@@ -29,8 +29,8 @@ pub trait Surface: Copy + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// Directions x, y, z along which it does not change, to the last digit.
     fn invariant(&self) -> [bool; 3];
 
-    /// Whether it neither pushes nor drags along direction x, y or z, wherever a body is.
-    fn leaves_alone(&self, direction: usize) -> bool;
+    /// What of it acts along direction x, y or z anywhere, as a subject and its verb; `None`: it neither pushes nor drags.
+    fn acts_along(&self, direction: usize) -> Option<&'static str>;
 
     /// Coordinates on the surface of the point nearest to x [m]: lengths along it, by which pictures are drawn.
     fn chart(&self, x: [f64; 3]) -> [f64; 2];
@@ -94,8 +94,8 @@ impl Road {
         ask!(self, road => road.invariant())
     }
 
-    pub fn leaves_alone(&self, direction: usize) -> bool {
-        ask!(self, road => road.leaves_alone(direction))
+    pub fn acts_along(&self, direction: usize) -> Option<&'static str> {
+        ask!(self, road => road.acts_along(direction))
     }
 
     pub fn chart(&self, x: [f64; 3]) -> [f64; 2] {

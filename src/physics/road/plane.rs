@@ -57,8 +57,12 @@ impl Surface for Plane {
         self.normal.map(|n| along_axis && n == 0.0)
     }
 
-    fn leaves_alone(&self, direction: usize) -> bool {
-        self.normal[direction] == 0.0 && self.velocity[direction] == 0.0
+    fn acts_along(&self, direction: usize) -> Option<&'static str> {
+        match (self.normal[direction] != 0.0, self.velocity[direction] != 0.0) {
+            (true, _) => Some("the road's normal points"),
+            (false, true) => Some("the road moves"),
+            (false, false) => None,
+        }
     }
 
     fn chart(&self, x: [f64; 3]) -> [f64; 2] {

@@ -14,7 +14,7 @@ fn value(table: &Table, parameter: &Parameter) -> Result<f64> {
     let Parameter { key, bound, .. } = *parameter;
     match (table.get(key), parameter.default, dimension(parameter.quantity)) {
         (None, Some(default), _) => Ok(default),
-        (None, None, None) => table.need(key, "0.8")?.number(bound),
+        (None, None, None) => table.need(key, "1.0")?.number(bound),
         (None, None, Some(dimension)) => table.quantity(key, dimension, bound),
         (Some(item), _, None) => item.number(bound),
         (Some(item), _, Some(dimension)) => item.quantity(dimension, bound),

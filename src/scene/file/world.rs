@@ -53,8 +53,8 @@ pub(super) fn check_holds(item: &Item, holds: &[Hold], gravity: [f64; 3], road: 
         for (d, name) in ["x", "y", "z"].into_iter().enumerate().filter(|(d, _)| hold.components[*d]) {
             let Some(what) = (match road {
                 _ if gravity[d] != 0.0 => Some("gravity acts"),
-                Some(road) if !road.leaves_alone(d) => Some("the road pushes or moves"),
-                _ => None,
+                Some(road) => road.acts_along(d),
+                None => None,
             }) else {
                 continue;
             };
@@ -77,7 +77,7 @@ const LATER_KEYS: [Later; 1] = [("roughness", "remove the key: the road is smoot
 
 fn plane(table: &Table) -> Result<Road> {
     table.only(&["shape", "point", "normal", "velocity"], &LATER_KEYS)?;
-    let normal = direction(table, "normal", [0.0, 0.0, 1.0])?;
+    let normal = direction(table, "normal", [0, 0, 1])?;
     let velocity = table.vector_or_zero("velocity", &VELOCITY)?;
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     if dot(velocity, normal).abs() > IN_PLANE * dot(velocity, velocity).sqrt() {
@@ -92,8 +92,8 @@ fn plane(table: &Table) -> Result<Road> {
 /// A plane bent about an axis: `point` and `normal` say where the surface is, `radius` and `side` how it is bent.
 fn drum(table: &Table) -> Result<Road> {
     table.only(&["shape", "point", "normal", "axis", "radius", "side", "angular_velocity"], &LATER_KEYS)?;
-    let normal = direction(table, "normal", [0.0, 0.0, 1.0])?;
-    let axis = direction(table, "axis", [0.0, 1.0, 0.0])?;
+    let normal = direction(table, "normal", [0, 0, 1])?;
+    let axis = direction(table, "axis", [0, 1, 0])?;
     let along: f64 = (0..3).map(|d| axis[d] * normal[d]).sum();
     if along.abs() > IN_PLANE {
         return Err(table.at("axis").error(
@@ -110,8 +110,8 @@ fn drum(table: &Table) -> Result<Road> {
 }
 
 /// A unit vector.
-fn direction(table: &Table, key: &str, default: [f64; 3]) -> Result<[f64; 3]> {
-    let Some(item) = table.get(key) else { return Ok(default) };
+fn direction(table: &Table, key: &str, default: [i32; 3]) -> Result<[f64; 3]> {
+    let Some(item) = table.get(key) else { return Ok(default.map(f64::from)) };
     let n = item.three("[0, 0, 1]", |entry| entry.number(Bound::Any))?;
     // Scaled first, so that no square overflows or vanishes.
     let largest = n.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
