@@ -72,6 +72,9 @@ fn imports_are_found_in_every_form() {
     assert!(has("run/explicit.rs", "run/footprint.rs"), "use super::footprint::{{self, ..}}");
     assert!(has("output/rolling.rs", "model/areas.rs"), "use crate::model::areas::..");
     assert!(has("cli/lib.rs", "cli/run.rs"), "run::execute without a use");
+    assert!(has("cli/run.rs", "output/writer.rs"), "use hexroll::output::RunWriter, handed on by output");
+    assert!(imports.iter().any(|i| i.from.starts_with("cli/") && i.to.starts_with("lab/")), "hexroll_lab");
+    assert!(imports.iter().any(|i| i.from.starts_with("cpu/") && i.to.starts_with("kernels/")), "crates");
     assert!(has("physics/element/hex8.rs", "physics/element/mod.rs"), "super::SIGNS in an expression");
     assert!(has("render/body.rs", "model/mesh/mod.rs"), "through a folder's mod.rs");
     assert!(!has("run/mod.rs", "run/stages.rs"), "pub use hands on and imports nothing");

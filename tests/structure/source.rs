@@ -55,8 +55,10 @@ impl Sources {
             let root = crates.iter().map(|part| part.to_string_lossy().into_owned()).collect();
             files.insert(module.clone(), Source { path: name, module, root, product, tests });
         }
-        let crates =
-            paths.iter().filter(|p| p.ends_with("Cargo.toml")).map(|p| named_crate(root, p)).collect();
+        let manifests = paths.iter().filter(|path| path.ends_with("Cargo.toml"));
+        let mut crates: BTreeMap<_, _> = manifests.map(|path| named_crate(root, path)).collect();
+        // The library that the folder itself is.
+        crates.insert("hexroll".into(), Vec::new());
         let mut sources = Sources { files, crates, facades: BTreeMap::new() };
         for source in sources.files.values() {
             let handed = paths_of(&source.product, "pub use ");
@@ -96,8 +98,9 @@ impl Sources {
             module.push("tests".into());
         }
         let mut paths = paths_of(text, "\nuse ");
-        for root in ["crate::", "super::"] {
-            paths.extend(text.match_indices(root).filter_map(|(at, _)| name_at(text, at)));
+        let crates = self.crates.keys().map(String::as_str);
+        for root in ["crate", "super"].into_iter().chain(crates).map(|name| format!("{name}::")) {
+            paths.extend(text.match_indices(&root).filter_map(|(at, _)| name_at(text, at)));
         }
         // Names of a module's own children.
         for child in self.files.keys().filter(|m| m.len() == module.len() + 1 && m.starts_with(&module)) {
