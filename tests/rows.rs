@@ -258,7 +258,7 @@ fn a_shuffled_wheel_has_its_tone_and_its_footprint() {
     let (other_length, other_tone) =
         rolled(model(&scene, |mesh| *mesh = shuffled(mesh, &mut Random::new(5))));
     assert!((other_tone / tone - 1.0).abs() < 1e-9, "{other_tone} Hz, {tone} Hz");
-    // Forces are summed in another order; that is round-off, which rolling contact makes larger. Whole windows would be
-    // some 15 % longer: a node touches for half of a part, but not for half of a window.
+    // Forces are summed in another order; that is round-off, which rolling contact makes larger. Over whole windows it
+    // would be another length: a node that rolls through touches for half of a part, but not for half of a window.
     assert!((other_length / length - 1.0).abs() < 1e-3, "{other_length} m, {length} m");
 }
