@@ -388,10 +388,16 @@ struct Feature {
     chosen: fn(&Choice) -> bool,
 }
 
-const FEATURES: [Feature; 12] = [
+const FEATURES: [Feature; 13] = [
     Feature {
         name: "friction",
-        files: &["friction/coulomb", "friction/viscous", "friction/stribeck", "friction/pressure_velocity"],
+        files: &[
+            "friction/coulomb",
+            "friction/viscous",
+            "friction/stribeck",
+            "friction/static_kinetic",
+            "friction/pressure_velocity",
+        ],
         instead: &[],
         chosen: |c| c.friction.is_some(),
     },
@@ -402,10 +408,10 @@ const FEATURES: [Feature; 12] = [
         chosen: |c| matches!(c.friction, Some(Friction::Coulomb(_))),
     },
     Feature {
-        name: "Stribeck friction",
-        files: &["friction/stribeck"],
+        name: "two coefficients of friction",
+        files: &["friction/stribeck", "friction/static_kinetic"],
         instead: &["friction/viscous", "friction/pressure_velocity"],
-        chosen: |c| matches!(c.friction, Some(Friction::Stribeck(_))),
+        chosen: |c| matches!(c.friction, Some(Friction::Stribeck(_) | Friction::StaticKinetic(_))),
     },
     Feature {
         name: "friction by pressure",
@@ -424,6 +430,12 @@ const FEATURES: [Feature; 12] = [
         files: &["contact/project", "road/plane"],
         instead: &["contact/none"],
         chosen: |c| c.road.is_some(),
+    },
+    Feature {
+        name: "a drum",
+        files: &["road/drum"],
+        instead: &["road/plane"],
+        chosen: |c| c.road == Some("drum"),
     },
     Feature {
         name: "viscosity",

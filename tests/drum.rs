@@ -90,16 +90,16 @@ fn rolled(road: Road, precision: Precision) -> [f64; 3] {
     columns.map(|column| outcome.mean("roll", 0.5, column))
 }
 
-/// A drum of 1e5 times the wheel's radius is the plane that moves at its surface's speed.
+/// A drum of 1e6 times the wheel's radius is the plane that moves at its surface's speed.
 #[test]
 fn a_very_large_drum_is_a_plane() {
-    let (speed, radius) = (-1.0, 1e5 * OUTER_RADIUS);
+    let (speed, radius) = (-1.0, 1e6 * OUTER_RADIUS);
     let plane = Road::Plane(Plane { velocity: [speed, 0.0, 0.0], point: [0.0; 3], normal: [0.0, 0.0, 1.0] });
     let flat = rolled(plane, Precision::F64);
     for side in [1.0, -1.0] {
         let round = rolled(Road::Drum(drum(side, radius, side * speed / radius)), Precision::F64);
         for (a, b) in flat.iter().zip(&round) {
-            // The surface falls by x^2/2R, 1e-8 of the indentation in a print of 10 mm; friction amplifies it.
+            // The surface falls by x^2/2R, at 5 mm from the axle by 3e-7 of the indentation.
             assert!((a - b).abs() < 1e-6 * flat[1], "{flat:?} {round:?}");
         }
     }
@@ -125,20 +125,21 @@ fn curvature_changes_the_load_as_hertz_says() {
     assert!((less + more - 2.0).abs() < 0.02, "{less} {more} of {flat} N");
 }
 
-/// Friction on a turning drum: what its motion puts in, less what it does on the body, is dissipated, and the balance closes.
+/// A drum puts in its force times the way of its surface; part of that moves the body, the rest is dissipated, and the
+/// balance of the body closes.
 #[test]
 fn energies_on_a_turning_drum_add_up() {
-    // The rim does not turn: every node slides.
     let scene = rolling_on(Road::Drum(drum(1.0, 0.2, -20.0)), [44, 4, 2], 0.6, 0.0);
     let outcome = run(&scene);
     let rows = &outcome.samples[outcome.samples.len() / 2..];
     let (first, last) = (&rows[0], outcome.last());
-    let dissipated = |s: &Sample| s.road_work_J - s.friction_work_J;
-    let lost = dissipated(last) - dissipated(first);
-    // All nodes slide under the held wheel: friction force times the way of the surface, 4 m/s.
-    let force =
-        rows[1..].iter().map(|s| s.road_fx_N.hypot(s.road_fz_N)).sum::<f64>() / (rows.len() - 1) as f64;
-    let tangential = force * 0.6 / (1.0f64 + 0.36).sqrt();
-    close("dissipated", lost, tangential * 4.0 * (last.time_s - first.time_s), 0.03);
+    let time = last.time_s - first.time_s;
+    // Forces are means of windows of equal length. Their x-component is the one along the surface but for the normal
+    // force's share, x/R of it where the middle of the print is at x: within 2 mm of the axle.
+    let force = rows[1..].iter().map(|s| s.road_fx_N).sum::<f64>() / (rows.len() - 1) as f64;
+    let put_in = last.road_work_J - first.road_work_J;
+    close("work of the road", put_in, -force * 4.0 * time, 0.01);
+    let dissipated = put_in - (last.friction_work_J - first.friction_work_J);
+    assert!(dissipated > 0.0 && dissipated < put_in, "{dissipated} of {put_in} J");
     assert!(outcome.totals.ledger.worst_balance < 1e-9 * outcome.totals.ledger.largest_term);
 }

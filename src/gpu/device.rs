@@ -30,7 +30,7 @@ pub struct AdapterReport {
 }
 
 /// Storage buffers bound by the largest kernel of the passes.
-pub const STORAGE_BUFFERS: u32 = 18;
+pub const STORAGE_BUFFERS: u32 = 17;
 
 fn instance() -> wgpu::Instance {
     wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env())
