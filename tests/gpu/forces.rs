@@ -189,12 +189,13 @@ fn numberings(gpu: &Gpu, kinds: &[&str]) {
                 let body = Body { viscosity: Some(400.0), ..case.scene.body.clone() };
                 let [exact, plain, plus] =
                     [Who::Cpu64, Who::Gpu, Who::Plus].map(|who| case.forces(gpu, who, &body));
-                // A coordinate of 0.4 m is rounded to 1.5e-8 m, of an edge of 10 mm whose strains are 0.1: 1.5e-5.
+                // Plain: a coordinate of 0.4 m is rounded to 1.5e-8 m, of an edge of 10 mm whose strains are 0.1: 1.5e-5.
+                // With pairs: 6e-8 of J times 25 shear moduli, of stresses of a tenth of one: 1.5e-5 where few add up.
                 let errors = [relative(&plain, &exact), relative(&plus, &exact)];
                 let name =
                     format!("{spec:?}, distorted {distorted}, {kind}: {:.1e}, {:.1e}", errors[0], errors[1]);
                 note(|| name.clone());
-                assert!(errors[0] < 5e-5 && errors[1] < TOLERANCE, "{name}");
+                assert!(errors[0] < 5e-5 && errors[1] < 2e-5, "{name}");
             }
         }
     }
