@@ -6,6 +6,7 @@ use crate::rig::{
 use hexroll::engine::Engine;
 use hexroll::gpu::{Gpu, Precision};
 use hexroll::model::Model;
+use hexroll_lab::rig::given::OUTER_RADIUS;
 
 /// Everything a resident stage can have (gravity, damping, viscosity, friction, a rim that turns), against the f64
 /// engine and against the passes. Bounds as in steps.rs for the former; the latter differ by the same roundings.
@@ -46,7 +47,7 @@ fn agrees_on(gpu: &Gpu) {
             ("contact impulse", 1e-3),
         ];
         for (who, other) in [("resident and f64", &exact), ("resident and passes", &passes)] {
-            within(&format!("{stem}: {who}"), &errors(&plan, 0.039, &resident, other), &bounds, 1e-3);
+            within(&format!("{stem}: {who}"), &errors(&plan, OUTER_RADIUS, &resident, other), &bounds, 1e-3);
             within(
                 &format!("{stem}: {who}"),
                 &state_errors(&model, &resident, other),

@@ -8,6 +8,7 @@ use hexroll::engine::{StageSetup, Step};
 use hexroll::gpu::Gpu;
 use hexroll::model::Model;
 use hexroll::scene::Scene;
+use hexroll_lab::rig::given::OUTER_RADIUS;
 
 fn wheel(changes: &[&str]) -> (Scene, Model) {
     let all = [
@@ -98,7 +99,7 @@ pub fn doubles(gpu: &Gpu) {
         let plan = plan(&model, &[&[5e-6], &[6e-6, 4e-6], &[5e-6; 300]]);
         let [exact, got] = [Who::Cpu64, Who::Double].map(|who| outcome(gpu, who, &model, &scene, &plan));
         assert!(sliding(&exact) > 0 && sticking(&exact) > 0, "no node slides, or none sticks");
-        within(law, &errors(&plan, 0.039, &got, &exact), &[("contact steps", 0.0)], DOUBLE);
+        within(law, &errors(&plan, OUTER_RADIUS, &got, &exact), &[("contact steps", 0.0)], DOUBLE);
         within(law, &state_errors(&model, &got, &exact), &[], DOUBLE);
     }
 }
@@ -112,7 +113,7 @@ fn sticking(outcome: &Outcome) -> usize {
 }
 
 fn check(who: &str, model: &Model, plan: &Plan, got: &Outcome, exact: &Outcome, state: &[(&str, f64)]) {
-    within(who, &errors(plan, 0.039, got, exact), &BOUNDS, OTHERWISE);
+    within(who, &errors(plan, OUTER_RADIUS, got, exact), &BOUNDS, OTHERWISE);
     within(who, &state_errors(model, got, exact), state, OTHERWISE);
 }
 
@@ -140,7 +141,7 @@ fn mutants(gpu: &Gpu, windows: &[&[f64]]) {
         let (scene, model) = wheel(&change);
         let mutant = outcome(gpu, Who::Cpu64, &model, &scene, plan);
         let found = [
-            beyond(&errors(&right, 0.039, &mutant, &exact), &BOUNDS, OTHERWISE),
+            beyond(&errors(&right, OUTER_RADIUS, &mutant, &exact), &BOUNDS, OTHERWISE),
             beyond(&state_errors(&model, &mutant, &exact), &STATE, OTHERWISE),
         ]
         .concat();

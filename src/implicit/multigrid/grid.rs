@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn grids_are_numbered_as_the_generators_do() {
         for spec in [
-            MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements: [9, 2, 3] },
+            MeshSpec::Ring { outer_radius: 0.04, inner_radius: 0.02, width: 0.02, elements: [9, 2, 3] },
             MeshSpec::Block { size: [1.0; 3], elements: [2, 3, 4] },
         ] {
             let mesh = Mesh::generate(&spec);

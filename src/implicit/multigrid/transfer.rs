@@ -226,7 +226,7 @@ mod tests {
 
     fn cases() -> [MeshSpec; 3] {
         let ring =
-            |elements| MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements };
+            |elements| MeshSpec::Ring { outer_radius: 0.04, inner_radius: 0.02, width: 0.02, elements };
         [ring([16, 4, 2]), ring([17, 3, 5]), MeshSpec::Block { size: [1.0, 2.0, 3.0], elements: [4, 3, 7] }]
     }
 

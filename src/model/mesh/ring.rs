@@ -67,7 +67,7 @@ mod tests {
 
     fn wheel(around: usize, grading: &Grading) -> Mesh {
         let elements = [around, 2, 3];
-        let spec = MeshSpec::Ring { outer_radius: 0.039, inner_radius: 0.017, width: 0.0175, elements };
+        let spec = MeshSpec::Ring { outer_radius: 0.04, inner_radius: 0.02, width: 0.02, elements };
         Mesh::graded(&spec, grading).moved([0.3, -0.1, 0.02])
     }
 
@@ -89,7 +89,7 @@ mod tests {
             for mesh in [mesh.clone(), reversed(&mesh)] {
                 let ring = mesh.ring().unwrap();
                 assert_eq!(ring.around, around);
-                assert!((ring.radius - 0.039).abs() < 1e-15);
+                assert!((ring.radius - 0.04).abs() < 1e-15);
             }
         }
         // Coarse rings and strongly graded ones are known by their lattice.
@@ -104,7 +104,7 @@ mod tests {
         let [cx, _, cz] = mesh.axle;
         for x in &mut mesh.nodes {
             // The edges stand back by 10 %.
-            let edge = (x[1] + 0.1).abs() / 0.00875;
+            let edge = (x[1] + 0.1).abs() / 0.01;
             let by = 1.0 - 0.1 * edge * edge;
             (x[0], x[2]) = (cx + by * (x[0] - cx), cz + by * (x[2] - cz));
         }
