@@ -115,12 +115,15 @@ fn pairwise() -> Vec<Decided> {
 ///
 /// No other kernel depends on both what an element and what a node is made of ([`deciding`]). So in single precision every
 /// element and every node is taken, in each place, with a partner that changes from one to the next: these kernels meet
-/// the full product of what they depend on. The resident kernel, and the other precisions, which decide how numbers are
-/// written, meet every pair.
+/// the full product of what they depend on. The resident kernel meets every pair, and every node with the element that
+/// binds most; the other precisions, which decide how numbers are written, meet every pair.
 fn choices() -> Vec<(Decided, Kernel)> {
     let (elements, nodes) = (product(ELEMENT), product(NODE));
     assert!(nodes.len() >= elements.len(), "every element meets a node");
     let mut all: Vec<_> = pairwise().into_iter().flat_map(|d| Kernel::ALL.map(|k| (d, k))).collect();
+    // Own classes, viscous, in a table.
+    let binds_most = |node: &Decided| std::array::from_fn(|d| node[d] + usize::from(d == 4));
+    all.extend(nodes.iter().map(|node| (binds_most(node), Kernel::Resident)));
     for (shift, place) in product(PLACE).iter().enumerate() {
         for (k, node) in nodes.iter().enumerate() {
             let element = &elements[(k + shift) % elements.len()];

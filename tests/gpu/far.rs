@@ -1,6 +1,6 @@
 //! Single precision far from where the wheel started: positions are kept relative to a frame that follows the axle.
 
-use crate::rig::{Plan, Random, Who, engine, note, on_device, outcome, relative, safe_step, scene};
+use crate::rig::{Plan, Who, engine, noise, note, on_device, outcome, relative, safe_step, scene};
 use hexroll::engine::{Engine, State};
 use hexroll::gpu::{Gpu, Precision};
 use hexroll::model::Model;
@@ -19,7 +19,7 @@ pub fn offset(gpu: &Gpu) {
     let (near_scene, near) = wheel(&[]);
     let (far_scene, far) = wheel(&["body.offset=[\"1000 m\", \"0 m\", \"0 m\"]"]);
     assert_eq!(near.classes.len(), far.classes.len());
-    let mut random = Random::new(11);
+    let mut random = noise(11);
     let u: Vec<[f64; 3]> = near.mesh.nodes.iter().map(|_| random.within(0.3e-3)).collect();
     let v: Vec<[f64; 3]> = near.mesh.nodes.iter().map(|_| random.within(1.0)).collect();
     for precision in [Precision::F32, Precision::F32Plus] {

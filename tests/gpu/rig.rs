@@ -48,6 +48,11 @@ pub fn as_hardware(gpu: &Gpu) -> Gpu {
     gpu
 }
 
+/// Random numbers that every trial has its own of: bounds and what must slide or stick are measured with these.
+pub fn noise(seed: u64) -> Random {
+    Random::from_state(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+}
+
 /// What engines are given to do: every engine gets the same.
 #[derive(Clone)]
 pub struct Plan {

@@ -2,7 +2,7 @@
 //! viscosity, sliding and sticking contact on a moving road, a rim that moves, steers and spins.
 
 use crate::rig::{
-    Outcome, Plan, Random, Who, beyond, errors, list, note, outcome, scene, state_errors, within,
+    Outcome, Plan, Who, beyond, errors, list, noise, note, outcome, scene, state_errors, within,
 };
 use hexroll::engine::{StageSetup, Step};
 use hexroll::gpu::Gpu;
@@ -39,7 +39,7 @@ fn plan(model: &Model, windows: &[&[f64]]) -> Plan {
     let windows: Vec<Vec<Step>> = windows.iter().map(|w| w.iter().map(|&dt| step(dt)).collect()).collect();
     let next = step(4e-6);
     let setup = StageSetup { mass_damping: 500.0, free: [None; 6] };
-    let mut random = Random::new(3);
+    let mut random = noise(3);
     let field = |_| {
         let v = random.within(0.5);
         [v[0] + 1.5, v[1], v[2] - 1.0]

@@ -10,6 +10,11 @@ impl Random {
         Random(0x9e37_79b9_7f4a_7c15 ^ (seed + 1).wrapping_mul(0xbf58_476d_1ce4_e5b9))
     }
 
+    /// The sequence that goes on from a state other than 0.
+    pub fn from_state(state: u64) -> Random {
+        Random(state)
+    }
+
     /// Uniform in -1..1.
     pub fn signed(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
