@@ -84,7 +84,7 @@ pub fn simulate(
     out: &Path,
     display: impl FnOnce(usize, &EngineInfo, &str) -> Display,
 ) -> Result<Done> {
-    let model = Model::new(scene)?;
+    let model = choose::model(engine, scene)?;
     let chosen = choose::choose(engine, &model, scene)?;
     simulate_with(chosen, (scene, text, &model), out, display)
 }
@@ -156,7 +156,7 @@ impl Report<'_> {
             driver: on_gpu.map(|()| info.driver.clone()),
             engine: info.engine.clone(),
             engine_reason: self.reason.clone(),
-            precision: info.precision.clone(),
+            precision: info.precision,
             threads: info.threads,
             elements: self.model.element_count(),
             nodes: self.model.node_count(),

@@ -2,6 +2,7 @@
 
 mod body;
 mod display;
+mod memory;
 mod programs;
 mod stages;
 
@@ -9,17 +10,18 @@ use clap::Args;
 use serde::Serialize;
 use std::path::PathBuf;
 
-use super::choose::{self, Precision};
+use super::choose;
 use super::estimate::{self, Steps};
 use super::scene::SceneArgs;
 use super::terminal;
 use super::warnings;
 use body::Body;
-use hexroll::Result;
 use hexroll::engine::Engine;
 use hexroll::gpu::adapters;
 use hexroll::model::Model;
 use hexroll::scene::Scene;
+use hexroll::{Precision, Result, cpu};
+use memory::CpuMemory;
 use programs::GpuPlan;
 use stages::StagePlan;
 
@@ -59,6 +61,7 @@ struct Check {
     steps: Steps,
     /// Time estimates, one an engine that was timed.
     estimates: Vec<Estimate>,
+    cpu: CpuMemory,
     gpu: GpuPlan,
     outputs: Vec<String>,
     warnings: Vec<String>,
@@ -84,6 +87,8 @@ struct Estimate {
 
 pub fn execute(args: &CheckArgs) -> Result<()> {
     let (scene, _) = args.scene.load()?;
+    // Of what is timed below, the most.
+    hexroll::memory::ensure(&scene, |scene| choose::need(scene, Some(Precision::F64)))?;
     let model = Model::new(&scene)?;
     let steps = Steps::of(&scene, &model)?;
     let (estimates, notes) = estimates(&scene, &model, &steps);
@@ -95,6 +100,7 @@ pub fn execute(args: &CheckArgs) -> Result<()> {
         body: Body::of(&scene, &model),
         pieces: stages::pieces(&scene, &model.mesh.sets),
         stages: stages::plans(&scene, &steps),
+        cpu: CpuMemory::of(&scene),
         gpu: GpuPlan::of(&scene, &model)?,
         steps,
         estimates,
@@ -112,7 +118,7 @@ pub fn execute(args: &CheckArgs) -> Result<()> {
 fn estimates(scene: &Scene, model: &Model, steps: &Steps) -> (Vec<Estimate>, Vec<String>) {
     let reports = adapters();
     let real = choose::usable(&reports, None).filter(|a| !a.software);
-    let mut engines = vec![Ok(choose::cpu(Precision::F64, 0, model, scene))];
+    let mut engines = vec![cpu::engine(model, scene, Precision::F64, 0)];
     engines.extend(real.map(|a| choose::gpu(Some(&a.name), Precision::F32, model, scene)));
     let (mut estimates, mut notes) = (Vec::new(), Vec::new());
     for engine in engines {
