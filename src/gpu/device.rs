@@ -15,7 +15,7 @@ pub struct AdapterReport {
     /// Largest storage binding and buffer [bytes].
     pub storage_binding: u64,
     pub buffer: u64,
-    /// Storage buffers a compute stage may bind (passes bind up to 18, the kernel of small meshes 20).
+    /// Storage buffers a compute stage may bind (passes bind up to 17, the kernel of small meshes 20).
     pub storage_buffers: u32,
     /// Work groups a dispatch may have in one dimension.
     pub workgroups: u32,
