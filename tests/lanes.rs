@@ -136,6 +136,7 @@ impl<T: Real> InLanes<T> for MoveAndCompare {
     fn run<N: Lanes<Real = T>>(self) {
         let real = |v: f64| <N::Real as Scalar>::from_f64(v);
         let all = |f: &dyn Fn(usize) -> f64| (0..N::WIDTH).map(|i| real(f(i))).collect::<Vec<N::Real>>();
+        // SAFETY: callers pass a whole vector's lanes.
         let of = |v: &[N::Real]| unsafe { N::load(v.as_ptr(), 0) };
         let list = |n: N| (0..N::WIDTH).map(|i| n.lane(i).to_f64()).collect::<Vec<f64>>();
         let (a, b) = (all(&|i| i as f64 + 1.0), all(&|i| 0.5 - i as f64));
@@ -148,12 +149,15 @@ impl<T: Real> InLanes<T> for MoveAndCompare {
             let chosen = |i: usize| if mask >> i & 1 == 1 { a[i].to_f64() } else { b[i].to_f64() };
             let expected: Vec<f64> = (0..width).map(chosen).collect();
             assert_eq!(list(x.choose(y, mask)), expected, "{mask:b}");
+            // SAFETY: a has as many numbers as there are lanes.
             assert_eq!(list(unsafe { y.load_over(a.as_ptr(), mask) }), expected, "{mask:b}");
             let mut to = b.clone();
+            // SAFETY: as many as there are lanes.
             unsafe { x.store_where(to.as_mut_ptr(), mask) };
             assert_eq!(to.iter().map(|v| v.to_f64()).collect::<Vec<f64>>(), expected, "{mask:b}");
         }
         let mut sums = vec![1.0f64; width];
+        // SAFETY: as many as there are lanes.
         unsafe { x.add_to(sums.as_mut_ptr()) };
         assert_eq!(sums, list(x).iter().map(|v| v + 1.0).collect::<Vec<f64>>());
         assert_eq!(y.negative(), (0..width).filter(|i| *i > 0).map(|i| 1 << i).sum::<u32>());
