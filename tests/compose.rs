@@ -116,7 +116,7 @@ fn pairwise() -> Vec<Decided> {
 /// No other kernel depends on both what an element and what a node is made of ([`deciding`]). So in single precision every
 /// element and every node is taken, in each place, with a partner that changes from one to the next: these kernels meet
 /// the full product of what they depend on. The resident kernel meets every pair, and every node with the element that
-/// binds most; the other precisions, which decide how numbers are written, meet every pair.
+/// binds most, and the node pass as pairs every node; the other precisions, which decide how numbers are written, meet every pair.
 fn choices() -> Vec<(Decided, Kernel)> {
     let (elements, nodes) = (product(ELEMENT), product(NODE));
     assert!(nodes.len() >= elements.len(), "every element meets a node");
@@ -124,6 +124,10 @@ fn choices() -> Vec<(Decided, Kernel)> {
     // Own classes, viscous, in a table.
     let binds_most = |node: &Decided| std::array::from_fn(|d| node[d] + usize::from(d == 4));
     all.extend(nodes.iter().map(|node| (binds_most(node), Kernel::Resident)));
+    // The node pass binds most with positions as pairs.
+    let pairs = Precision::ALL.iter().position(|p| p.has_pairs()).expect("f32+");
+    let as_pairs = |node: &Decided| std::array::from_fn(|d| node[d] + if d == 11 { pairs } else { 0 });
+    all.extend(nodes.iter().map(|node| (as_pairs(node), Kernel::Boundary)));
     for (shift, place) in product(PLACE).iter().enumerate() {
         for (k, node) in nodes.iter().enumerate() {
             let element = &elements[(k + shift) % elements.len()];
@@ -405,10 +409,10 @@ const FEATURES: [Feature; 12] = [
         chosen: |c| matches!(c.friction, Some(Friction::Coulomb(_))),
     },
     Feature {
-        name: "Stribeck friction",
-        files: &["friction/stribeck"],
-        instead: &["friction/viscous", "friction/pressure_velocity", "friction/static_kinetic"],
-        chosen: |c| matches!(c.friction, Some(Friction::Stribeck(_))),
+        name: "friction at rest and in motion",
+        files: &["friction/stribeck", "friction/static_kinetic"],
+        instead: &["friction/viscous", "friction/pressure_velocity"],
+        chosen: |c| matches!(c.friction, Some(Friction::Stribeck(_) | Friction::StaticKinetic(_))),
     },
     Feature {
         name: "friction by pressure",
