@@ -59,10 +59,12 @@ fn choice(decided: &Decided) -> Choice {
         gravity: gravity == 1,
         damping: damping == 1,
         rim: [RimKind::None, RimKind::Prescribed, RimKind::Free][rim],
-        // The first is the one in which the full product is taken.
-        precision: [Precision::F32, Precision::F32Plus, Precision::F64][precision],
+        precision: PRECISIONS[precision],
     }
 }
+
+/// In this order: the full product is taken in the first.
+const PRECISIONS: [Precision; 3] = [Precision::F32, Precision::F32Plus, Precision::F64];
 
 /// What a kernel's program depends on, of all that is decided.
 fn deciding(kernel: Kernel) -> Vec<usize> {
@@ -117,7 +119,7 @@ fn pairwise() -> Vec<Decided> {
 /// No other kernel depends on both what an element and what a node is made of ([`deciding`]). So in single precision every
 /// element and every node is taken, in each place, with a partner that changes from one to the next: these kernels meet
 /// the full product of what they depend on. The resident kernel meets every pair, and every node with the element that
-/// binds most; the other precisions, which decide how numbers are written, meet every pair.
+/// binds most, and the node pass as pairs every node; the other precisions, which decide how numbers are written, meet every pair.
 fn choices() -> Vec<(Decided, Kernel)> {
     let (elements, nodes) = (product(ELEMENT), product(NODE));
     assert!(nodes.len() >= elements.len(), "every element meets a node");
@@ -125,6 +127,10 @@ fn choices() -> Vec<(Decided, Kernel)> {
     // Own classes, viscous, in a table.
     let binds_most = |node: &Decided| std::array::from_fn(|d| node[d] + usize::from(d == 4));
     all.extend(nodes.iter().map(|node| (binds_most(node), Kernel::Resident)));
+    // The node pass binds most with positions as pairs.
+    let pairs = PRECISIONS.iter().position(|p| p.has_pairs()).expect("f32+");
+    let as_pairs = |node: &Decided| std::array::from_fn(|d| node[d] + if d == 11 { pairs } else { 0 });
+    all.extend(nodes.iter().map(|node| (as_pairs(node), Kernel::Boundary)));
     for (shift, place) in product(PLACE).iter().enumerate() {
         for (k, node) in nodes.iter().enumerate() {
             let element = &elements[(k + shift) % elements.len()];
