@@ -71,8 +71,10 @@ fn a_stage_that_does_not_settle_exits_5() {
 #[cfg(unix)]
 mod interrupted {
     use std::path::Path;
-    use std::process::{Child, Command, Stdio};
+    use std::process::{Child, Stdio};
     use std::time::{Duration, Instant};
+
+    use rustix::process::{Pid, Signal, kill_process};
 
     use super::*;
     use crate::program::Done;
@@ -91,9 +93,8 @@ mod interrupted {
     }
 
     impl Running {
-        fn signal(&self, name: &str) {
-            let id = self.0.as_ref().unwrap().id().to_string();
-            assert!(Command::new("kill").args([name, &id]).status().unwrap().success());
+        fn signal(&self, signal: Signal) {
+            kill_process(Pid::from_child(self.0.as_ref().unwrap()), signal).unwrap();
         }
 
         fn wait(mut self, most: Duration) -> Done {
@@ -129,7 +130,7 @@ mod interrupted {
     fn ctrl_c_ends_the_window_writes_everything_and_exits_130() {
         let place = Place::new();
         let running = start(&place);
-        running.signal("-INT");
+        running.signal(Signal::INT);
         let done = running.wait(Duration::from_secs(120)).expect(130);
         assert!(done.stderr.contains("error: interrupted at t = "), "{}", done.stderr);
         assert!(done.stdout.contains("steps"), "the table is printed: {}", done.stdout);
@@ -149,7 +150,7 @@ mod interrupted {
     fn a_killed_run_is_readable_but_has_no_summary() {
         let place = Place::new();
         let running = start(&place);
-        running.signal("-KILL");
+        running.signal(Signal::KILL);
         running.wait(Duration::from_secs(60));
         assert!(read::history(&place.path("out")).unwrap().len() >= 3);
         assert_eq!(read::summary(&place.path("out")).unwrap(), None);
