@@ -32,7 +32,8 @@ fn force(c: &mut Criterion) {
             group.throughput(Throughput::Elements(model.element_count() as u64));
             let still = vec![[0.0; 3]; model.node_count()];
             for (precision, name) in PRECISIONS {
-                let mut engine = engine_at(&model, &scene, precision, 1, Level::detect());
+                let mut engine =
+                    engine_at(&model, &scene, precision, 1, Level::detect()).expect("the CPU has it");
                 group.bench_function(BenchmarkId::new(format!("{name}/{element}"), law.name()), |b| {
                     b.iter(|| engine.force(&model.mesh.nodes, &still).expect("forces at rest"));
                 });
@@ -51,7 +52,8 @@ fn step(c: &mut Criterion) {
             let roll = Roll::new(&model).expect("the wheel has a critical step");
             group.throughput(Throughput::Elements((STEPS * model.element_count()) as u64));
             for (precision, name) in PRECISIONS {
-                let mut engine = engine_at(&model, &scene, precision, 1, Level::detect());
+                let mut engine =
+                    engine_at(&model, &scene, precision, 1, Level::detect()).expect("the CPU has it");
                 roll.start(&mut *engine, &model).expect("the wheel starts");
                 let mut taken = 0;
                 let kind = if viscosity.is_some() { "viscous" } else { "elastic" };
@@ -70,7 +72,7 @@ fn step(c: &mut Criterion) {
 fn critical(c: &mut Criterion) {
     let scene = scene(880, "q1p0", None);
     let model = Model::new(&scene).expect("the wheel meshes");
-    let mut engine = engine_at(&model, &scene, Precision::F64, 1, Level::detect());
+    let mut engine = engine_at(&model, &scene, Precision::F64, 1, Level::detect()).expect("the CPU has f64");
     let guess = stability::element_bound(&model).expect("the wheel has a critical step");
     c.bench_function("critical/f64/q1p0", |b| {
         b.iter(|| {

@@ -3,6 +3,7 @@
 use crate::error::Result;
 pub use crate::kernels::SurfaceSum;
 use crate::physics::rim::Coordinates;
+use crate::precision::Precision;
 
 /// One step, planned by the host: everything that depends on time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -171,8 +172,7 @@ pub struct State {
 pub struct EngineInfo {
     /// "cpu" or "gpu"
     pub engine: String,
-    /// "f64", "f32", "f32+"
-    pub precision: String,
+    pub precision: Precision,
     /// Adapter or processor, and its driver.
     pub device: String,
     pub driver: String,

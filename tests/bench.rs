@@ -129,9 +129,9 @@ fn a_spread_is_least_median_and_most() {
     assert_eq!(Spread::of(vec![4.0, 1.0]), Spread { min: 1.0, median: 2.5, max: 4.0 });
 }
 
-fn row(engine: &str, elements: usize, error: Option<f64>) -> Row {
+fn row(engine: Kind, elements: usize, error: Option<f64>) -> Row {
     Row {
-        engine: engine.into(),
+        engine,
         lanes: "avx2".into(),
         threads: 1,
         copies: 1,
@@ -164,8 +164,8 @@ fn row(engine: &str, elements: usize, error: Option<f64>) -> Row {
 
 #[test]
 fn a_report_comes_back_from_json_as_it_was() {
-    let mut report = Report { rows: vec![row("cpu-f64", 880, Some(1e-12))], ..Report::default() };
-    report.rows.push(row("gpu-f32+", 7040, None));
+    let mut report = Report { rows: vec![row(Kind::CpuF64, 880, Some(1e-12))], ..Report::default() };
+    report.rows.push(row(Kind::GpuF32Plus, 7040, None));
     let text = serde_json::to_string(&report).unwrap();
     assert_eq!(serde_json::from_str::<Report>(&text).unwrap(), report);
     // The keys that other programs read.
@@ -194,11 +194,15 @@ fn a_report_comes_back_from_json_as_it_was() {
 
 #[test]
 fn a_fast_wrong_run_is_a_failed_run() {
-    let rows = vec![row("a", 880, Some(9e-4)), row("b", 880, Some(1.1e-3)), row("c", 880, None)];
+    let rows = vec![
+        row(Kind::CpuF64, 880, Some(9e-4)),
+        row(Kind::CpuF32, 880, Some(1.1e-3)),
+        row(Kind::GpuF32, 880, None),
+    ];
     let report = Report { rows, ..Report::default() };
     let failures = report.failures();
     assert_eq!(failures.len(), 2, "{failures:?}");
-    assert!(failures[0].starts_with("b ") && failures[1].starts_with("c "), "{failures:?}");
+    assert!(failures[0].starts_with("cpu-f32 ") && failures[1].starts_with("gpu-f32 "), "{failures:?}");
     let page = markdown::page(&report);
     assert!(page.contains("1.1e-3, failed") && page.contains("not finite, failed"), "{page}");
     assert!(page.contains("compute: why"), "a slow row says why");
@@ -206,7 +210,7 @@ fn a_fast_wrong_run_is_a_failed_run() {
 
 #[test]
 fn rows_that_differ_in_size_only_make_one_line_of_the_picture() {
-    let rows = [row("cpu-f64", 7040, None), row("cpu-f64", 880, None), row("cpu-f32", 880, None)];
+    let rows = [row(Kind::CpuF64, 7040, None), row(Kind::CpuF64, 880, None), row(Kind::CpuF32, 880, None)];
     let lines = chart::lines(&rows);
     assert_eq!(lines.len(), 2);
     assert_eq!(lines[0].points, [[880.0, 44.0], [7040.0, 44.0]]);
@@ -239,7 +243,7 @@ fn the_error_column_sees_a_per_cent_of_stiffness() {
     let model = Model::new(&scene).unwrap();
     let roll = Roll::new(&model).unwrap();
     let run = |model: &Model, precision| -> State {
-        let mut engine = cpu::engine(model, &scene, precision, 1);
+        let mut engine = cpu::engine(model, &scene, precision, 1).unwrap();
         roll.start(&mut *engine, model).unwrap();
         engine.advance(&roll.steps(0, 400)).unwrap();
         engine.state().unwrap()

@@ -55,7 +55,7 @@ fn every_level_computes_the_portable_forces() {
         let (x, v) = deformed(&model.mesh);
         for (precision, tolerance) in [(Precision::F64, 1e-13), (Precision::F32, 3e-5)] {
             // Rounding of the stress relative to its deviator: 1e-16 (6e-8) times kappa/G and a few digits of sums.
-            let of = |level| engine_at(&model, &case, precision, 1, level).force(&x, &v).unwrap();
+            let of = |level| engine_at(&model, &case, precision, 1, level).unwrap().force(&x, &v).unwrap();
             let portable = of(Level::PORTABLE);
             for level in Level::available() {
                 let error = relative(&portable, &of(level));
@@ -89,9 +89,9 @@ fn the_order_of_elements_and_nodes_does_not_matter() {
         (mixed.0[to], mixed.1[to]) = (x[n], v[n]);
     }
     for level in Level::available() {
-        let straight = engine_at(&model, &case, Precision::F64, 1, level).force(&x, &v).unwrap();
+        let straight = engine_at(&model, &case, Precision::F64, 1, level).unwrap().force(&x, &v).unwrap();
         let shuffled =
-            engine_at(&shuffled, &case, Precision::F64, 1, level).force(&mixed.0, &mixed.1).unwrap();
+            engine_at(&shuffled, &case, Precision::F64, 1, level).unwrap().force(&mixed.0, &mixed.1).unwrap();
         let back: Vec<[f64; 3]> = number.iter().map(|&to| shuffled[to]).collect();
         // Sums in another order.
         assert!(relative(&straight, &back) < 1e-13, "{level:?}");

@@ -73,7 +73,7 @@ fn an_affine_motion_of_a_distorted_mesh_is_homogeneous() {
         let (scene, model) = patch(element, law);
         let x: Vec<[f64; 3]> = model.mesh.nodes.iter().map(|&X| times(&F, X)).collect();
         let v: Vec<[f64; 3]> = x.iter().map(|&x| times(&L, x)).collect();
-        let forces = cpu::engine(&model, &scene, Precision::F64, 1).force(&x, &v).unwrap();
+        let forces = cpu::engine(&model, &scene, Precision::F64, 1).unwrap().force(&x, &v).unwrap();
         let scale = largest(&forces);
         let inside = |n: &usize| model.mesh.surface.binary_search(&(*n as u32)).is_err();
         let interior: Vec<usize> = (0..x.len()).filter(inside).collect();

@@ -128,7 +128,8 @@ fn forces_are_plain(element: Element) {
                 (Precision::F64, 3, 1e-12),
                 (Precision::F32, 2, 1e-3),
             ] {
-                let forces = engine_at(&model, scene, precision, threads, level).force(&x, &v).unwrap();
+                let forces =
+                    engine_at(&model, scene, precision, threads, level).unwrap().force(&x, &v).unwrap();
                 let error = relative(&forces, &expected);
                 assert!(error < tolerance, "{name}, {level:?}, {precision:?} x{threads}: {error:e}");
             }
@@ -176,7 +177,7 @@ fn lanes_without_a_node_do_no_work() {
     for level in Level::available() {
         for threads in [1, 2] {
             let mut driver = Driver::new(&model, &scene).unwrap();
-            driver.engine = engine_at(&model, &scene, Precision::F64, threads, level);
+            driver.engine = engine_at(&model, &scene, Precision::F64, threads, level).unwrap();
             driver.engine.set_velocity(&v, &[0.0; 6]).unwrap();
             driver.advance(std::iter::repeat_n(1e-6, 50)).unwrap();
             let window = driver.sample(1e-6).unwrap();
@@ -196,7 +197,7 @@ fn contact_of_every_step_adds_up_to_the_windows() {
     let model = Model::new(&scene).unwrap();
     for threads in [1, 2] {
         let mut driver = Driver::new(&model, &scene).unwrap();
-        driver.engine = engine(&model, &scene, Precision::F64, threads);
+        driver.engine = engine(&model, &scene, Precision::F64, threads).unwrap();
         driver.advance(std::iter::repeat_n(1e-5, 150)).unwrap();
         let window = driver.sample(1e-5).unwrap();
         assert_eq!(window.step_contact.len(), 150);

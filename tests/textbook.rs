@@ -77,7 +77,7 @@ fn the_passes_of_every_level_follow_the_book() {
             let (book, still) = (by_the_book(&model, &x), vec![[0.0; 3]; x.len()]);
             for level in Level::available() {
                 for (precision, tolerance) in [(Precision::F64, 1e-12), (Precision::F32, 3e-5)] {
-                    let mut engine = engine_at(&model, &scene, precision, 1, level);
+                    let mut engine = engine_at(&model, &scene, precision, 1, level).unwrap();
                     let error = relative(&engine.force(&x, &still).unwrap(), &book);
                     assert!(error < tolerance, "{} {level:?} {precision:?}: {error:e}", law.name());
                 }

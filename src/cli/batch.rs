@@ -4,9 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use clap::ValueEnum;
-
-use super::choose::{self, Chosen, EngineArgs, EngineChoice, Precision};
+use super::choose::{self, Chosen, EngineArgs, EngineChoice};
 use super::format::{count, duration};
 use super::progress::Display;
 use super::recorder;
@@ -18,7 +16,7 @@ use hexroll::output::read;
 use hexroll::output::summary::Summary;
 use hexroll::scene::Scene;
 use hexroll::study::axis::Changes;
-use hexroll::{Error, Result};
+use hexroll::{Error, Precision, Result, cpu};
 
 /// A run to be made, or found.
 pub struct Case {
@@ -35,7 +33,7 @@ impl Case {
     /// `sets` says otherwise.
     ///
     /// # Errors
-    /// As [`Scene::load`]; [`Error::Scene`] for a precision that there is not.
+    /// As [`Scene::load`].
     pub fn new(
         name: String,
         file: &Path,
@@ -50,10 +48,9 @@ impl Case {
         all.extend(sets.iter().cloned());
         all.extend(changes.iter().flat_map(|c| c.sets.iter().cloned()));
         let mut engine = engine.clone();
-        for precision in changes.iter().filter_map(|c| c.precision.as_deref()) {
-            let precision = precision_named(precision, &file)?;
+        for precision in changes.iter().filter_map(|c| c.precision) {
             // An engine that was settled without knowing better.
-            if precision == Precision::F32Plus && engine.engine == EngineChoice::Cpu {
+            if !cpu::PRECISIONS.contains(&precision) && engine.engine == EngineChoice::Cpu {
                 engine.engine = EngineChoice::Gpu;
             }
             engine.precision = Some(precision);
@@ -65,11 +62,10 @@ impl Case {
     /// The run's summary, if the folder holds this very run, finished.
     fn finished(&self) -> Option<Summary> {
         let summary = read::summary(&self.out).ok()??;
-        let asked = |p: Precision| p.name() == summary.precision;
         let same = summary.finished
             && summary.scene_hash == self.scene.hash
             && summary.versions.hexroll == env!("CARGO_PKG_VERSION")
-            && self.engine.precision.is_none_or(asked)
+            && self.engine.precision.is_none_or(|p| p == summary.precision)
             && match self.engine.engine {
                 EngineChoice::Auto => true,
                 EngineChoice::Cpu => summary.engine == "cpu",
@@ -77,16 +73,6 @@ impl Case {
             };
         same.then_some(summary)
     }
-}
-
-fn precision_named(name: &str, file: &str) -> Result<Precision> {
-    Precision::value_variants().iter().copied().find(|p| p.name() == name).ok_or_else(|| Error::Scene {
-        file: file.into(),
-        line: None,
-        key: format!("--over precision={name}"),
-        problem: "no such precision".into(),
-        remedy: "write f64, f32 or f32+".into(),
-    })
 }
 
 /// The engine of every run of a command: runs that are compared are not raced for. A real GPU if there is one, else the

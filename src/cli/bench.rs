@@ -198,7 +198,7 @@ fn engines(args: &BenchArgs, report: &mut Report) -> Result<(Vec<Kind>, Option<G
     let optional = args.engines.is_none() && args.adapter.is_none();
     if optional && usable(&adapters(), None).is_none() {
         let missing = |kind: &Kind| Missing {
-            engine: kind.name().into(),
+            engine: *kind,
             element: String::new(),
             elements: 0,
             failed: false,
@@ -272,7 +272,7 @@ fn straight_runs(args: &BenchArgs, engines: &[Kind], gpu: Option<&Gpu>, report: 
             for element in &args.elements {
                 for &eta in &args.viscosity.0 {
                     let run = straight::best(kind, threads, element, eta, gpu)?;
-                    eprintln!("{} x{threads} {element}: rolls in {:.3} s", run.engine, run.roll_s);
+                    eprintln!("{} x{threads} {element}: rolls in {:.3} s", run.engine.name(), run.roll_s);
                     report.straight.push(run);
                 }
             }

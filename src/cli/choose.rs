@@ -1,15 +1,16 @@
 //! Which engine runs a scene, in which precision, and why.
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::estimate::{self, Steps};
 use super::format::{duration, updates};
 use hexroll::cpu;
 use hexroll::engine::Engine;
-use hexroll::gpu::{self, AdapterReport, Gpu, GpuEngine, adapters};
+use hexroll::gpu::{AdapterReport, Gpu, GpuEngine, adapters};
 use hexroll::model::Model;
 use hexroll::scene::Scene;
-use hexroll::{Error, Result};
+use hexroll::{Error, Precision, Result};
 
 /// Engines a user can ask for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
@@ -23,36 +24,16 @@ pub enum EngineChoice {
     Cpu,
 }
 
-/// Precisions a user can ask for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Precision {
-    /// Double (the default on the CPU; on a GPU only if its shaders have it)
-    F64,
-    /// Single (the default on a GPU)
-    F32,
-    /// Single with positions as pairs (GPU only)
-    #[value(name = "f32+")]
-    F32Plus,
-}
-
-impl Precision {
-    /// Its name in arguments and summaries.
-    pub fn name(self) -> &'static str {
-        match self {
-            Precision::F64 => "f64",
-            Precision::F32 => "f32",
-            Precision::F32Plus => "f32+",
-        }
-    }
-
-    /// On the GPU engine.
-    fn on_gpu(self) -> gpu::Precision {
-        match self {
-            Precision::F64 => gpu::Precision::F64,
-            Precision::F32 => gpu::Precision::F32,
-            Precision::F32Plus => gpu::Precision::F32Plus,
-        }
-    }
+/// Reads `--precision`, with what `--help` says of each.
+fn precision_parser() -> impl TypedValueParser<Value = Precision> {
+    let value = |precision: Precision| {
+        PossibleValue::new(precision.name()).help(match precision {
+            Precision::F64 => "Double (the default on the CPU; on a GPU only if its shaders have it)",
+            Precision::F32 => "Single (the default on a GPU)",
+            Precision::F32Plus => "Single with positions as pairs (GPU only)",
+        })
+    };
+    PossibleValuesParser::new(Precision::ALL.map(value)).try_map(|name| name.parse::<Precision>())
 }
 
 /// How the engine is asked for.
@@ -62,7 +43,7 @@ pub struct EngineArgs {
     #[arg(long, value_enum, default_value_t)]
     pub engine: EngineChoice,
     /// Arithmetic; default f64 on the CPU, f32 on a GPU
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = precision_parser())]
     pub precision: Option<Precision>,
     /// Threads of the CPU engine; 0: one a core. Results do not depend on it
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -92,13 +73,13 @@ pub struct Candidates {
 /// # Errors
 /// [`Error::Unsupported`] for an engine that does not have the precision on any machine.
 pub fn candidates(engine: EngineChoice, precision: Option<Precision>) -> Result<Candidates> {
-    use Precision::{F32, F32Plus, F64};
-    let cpu = Some(precision.unwrap_or(F64)).filter(|p| *p != F32Plus);
+    use Precision::{F32, F64};
+    let cpu = Some(precision.unwrap_or(F64)).filter(|p| cpu::PRECISIONS.contains(p));
     let gpu = Some(precision.unwrap_or(F32));
     match engine {
         EngineChoice::Auto => Ok(Candidates { cpu, gpu }),
         EngineChoice::Cpu if cpu.is_none() => Err(Error::Unsupported {
-            what: "--precision f32+ on the CPU engine".into(),
+            what: format!("--precision {} on the CPU engine", precision.unwrap_or(F64)),
             instead: "use f64 or f32 there, or --engine gpu".into(),
         }),
         EngineChoice::Cpu => Ok(Candidates { cpu, gpu: None }),
@@ -130,7 +111,7 @@ pub fn choose(args: &EngineArgs, model: &Model, scene: &Scene) -> Result<Chosen>
     match candidates(args.engine, args.precision)? {
         Candidates { cpu: Some(precision), gpu: None } => {
             let reason = asked("--engine cpu");
-            Ok(Chosen { engine: cpu(precision, args.threads, model, scene), reason })
+            Ok(Chosen { engine: cpu::engine(model, scene, precision, args.threads)?, reason })
         }
         Candidates { cpu: None, gpu: Some(precision) } => {
             let reason = match args.engine {
@@ -146,15 +127,6 @@ pub fn choose(args: &EngineArgs, model: &Model, scene: &Scene) -> Result<Chosen>
     }
 }
 
-/// The CPU engine.
-pub(super) fn cpu(precision: Precision, threads: usize, model: &Model, scene: &Scene) -> Box<dyn Engine> {
-    let precision = match precision {
-        Precision::F32 => cpu::Precision::F32,
-        Precision::F64 | Precision::F32Plus => cpu::Precision::F64,
-    };
-    cpu::engine(model, scene, precision, threads)
-}
-
 /// The GPU engine on the best adapter, or on the one called `name`.
 pub(super) fn gpu(
     name: Option<&str>,
@@ -166,7 +138,7 @@ pub(super) fn gpu(
 }
 
 fn on_gpu(gpu: &Gpu, precision: Precision, model: &Model, scene: &Scene) -> Result<Box<dyn Engine>> {
-    Ok(Box::new(GpuEngine::new(gpu, model, scene, precision.on_gpu())?))
+    Ok(Box::new(GpuEngine::new(gpu, model, scene, precision)?))
 }
 
 /// Runs that the CPU engine ends sooner than this [s] are not worth a try: translating the kernels takes a software
@@ -193,8 +165,8 @@ impl Competition<'_> {
         let reports = adapters();
         let name = self.args.adapter.as_deref();
         match usable(&reports, name) {
-            Some(report) if self.on_gpu == Precision::F64 && !report.doubles && name.is_none() => {
-                self.cpu(&format!("{} has no double precision", report.name))
+            Some(report) if !report.has(self.on_gpu) && name.is_none() => {
+                self.cpu(&format!("{} has no {}", report.name, self.on_gpu))
             }
             // Who names a real GPU has chosen.
             Some(report) if !report.software && (name.is_some() || self.model.element_count() >= LARGE) => {
@@ -211,7 +183,7 @@ impl Competition<'_> {
     }
 
     fn cpu(&self, reason: &str) -> Result<Chosen> {
-        let engine = cpu(self.on_cpu, self.args.threads, self.model, self.scene);
+        let engine = cpu::engine(self.model, self.scene, self.on_cpu, self.args.threads)?;
         Ok(Chosen { engine, reason: reason.into() })
     }
 
@@ -243,7 +215,7 @@ impl Competition<'_> {
         let rate =
             |engine: &mut dyn Engine| estimate::rate(engine, self.model, self.scene, steps.element_bound_s);
         let cpu_rate = rate(&mut *self.cpu("")?.engine)?;
-        let cpu_text = format!("cpu {}: {}", self.on_cpu.name(), updates(cpu_rate));
+        let cpu_text = format!("cpu {}: {}", self.on_cpu, updates(cpu_rate));
         let seconds = steps.seconds(self.model, cpu_rate);
         if seconds < worth_a_try(software) {
             let time = duration(seconds);
@@ -258,9 +230,6 @@ impl Competition<'_> {
         }
         let engine = on_gpu(&gpu, self.on_gpu, self.model, self.scene)?;
         let rate = updates(gpu_rate);
-        Ok(Chosen {
-            engine,
-            reason: format!("gpu {}: {rate} on {name} against {cpu_text}", self.on_gpu.name()),
-        })
+        Ok(Chosen { engine, reason: format!("gpu {}: {rate} on {name} against {cpu_text}", self.on_gpu) })
     }
 }

@@ -156,7 +156,7 @@ impl Report<'_> {
             driver: on_gpu.map(|()| info.driver.clone()),
             engine: info.engine.clone(),
             engine_reason: self.reason.clone(),
-            precision: info.precision.clone(),
+            precision: info.precision,
             threads: info.threads,
             elements: self.model.element_count(),
             nodes: self.model.node_count(),

@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::batch::{Case, run_all, run_together, settled, side_by_side};
-use super::choose::{EngineArgs, EngineChoice, Precision};
+use super::choose::{EngineArgs, EngineChoice};
 use super::recorder::listen_for_interrupts;
 use super::study::{axis, made_by, save_picture, save_text, stem};
 use super::terminal;
 use hexroll::scene::Scene;
 use hexroll::study::axis::{Axis, Value};
 use hexroll::study::sweep::{Point, Sweep};
-use hexroll::{Error, Result};
+use hexroll::{Error, Precision, Result};
 
 pub const HELP: &str = "\
 Runs the scene for every combination of the values and writes one table and one plot: forces, moments, radii, footprint,

@@ -205,7 +205,7 @@ impl<T: Compilable> Engine for CpuEngine<T> {
     fn info(&self) -> EngineInfo {
         EngineInfo {
             engine: "cpu".into(),
-            precision: if T::EPSILON < 1e-10 { "f64" } else { "f32" }.into(),
+            precision: super::precision_of::<T>(),
             device: format!("{} processor, {:?} lanes", std::env::consts::ARCH, self.level),
             driver: String::new(),
             threads: self.program.shares.len(),

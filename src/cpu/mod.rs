@@ -100,34 +100,48 @@ mod world;
 pub use engine::CpuEngine;
 
 use crate::engine::Engine;
+use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::physics::lanes::Level;
+use crate::physics::scalar::Real;
+pub use crate::precision::Precision;
 use crate::scene::Scene;
 
-/// Floating-point type of the CPU engine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Precision {
-    F64,
-    F32,
+/// What the CPU engine computes in.
+pub const PRECISIONS: [Precision; 2] = [Precision::F64, Precision::F32];
+
+/// The precision of numbers of type `T`.
+fn precision_of<T: Real>() -> Precision {
+    if T::SINGLE { Precision::F32 } else { Precision::F64 }
 }
 
 /// A CPU engine at rest in the reference shape. `threads` = 0: all cores. Compiled once, here: callers do not each
 /// instantiate every kernel.
-pub fn engine(model: &Model, scene: &Scene, precision: Precision, threads: usize) -> Box<dyn Engine> {
+///
+/// # Errors
+/// [`Error::Unsupported`] for a precision that is not in [`PRECISIONS`].
+pub fn engine(model: &Model, scene: &Scene, precision: Precision, threads: usize) -> Result<Box<dyn Engine>> {
     engine_at(model, scene, precision, threads, Level::detect())
 }
 
 /// The same with chosen instructions.
+///
+/// # Errors
+/// As [`engine`].
 pub fn engine_at(
     model: &Model,
     scene: &Scene,
     precision: Precision,
     threads: usize,
     level: Level,
-) -> Box<dyn Engine> {
+) -> Result<Box<dyn Engine>> {
     match precision {
-        Precision::F64 => Box::new(CpuEngine::<f64>::with_level(model, scene, threads, level)),
-        Precision::F32 => Box::new(CpuEngine::<f32>::with_level(model, scene, threads, level)),
+        Precision::F64 => Ok(Box::new(CpuEngine::<f64>::with_level(model, scene, threads, level))),
+        Precision::F32 => Ok(Box::new(CpuEngine::<f32>::with_level(model, scene, threads, level))),
+        Precision::F32Plus => Err(Error::Unsupported {
+            what: format!("--precision {precision} on the CPU engine"),
+            instead: "use f64 or f32 there, or --engine gpu".into(),
+        }),
     }
 }
 

@@ -10,7 +10,7 @@ impl Engine for GpuEngine {
         let report = &self.body.gpu.report;
         EngineInfo {
             engine: "gpu".into(),
-            precision: self.body.precision.name().into(),
+            precision: self.body.precision,
             device: report.name.clone(),
             driver: report.driver.clone(),
             threads: 0,

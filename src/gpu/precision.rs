@@ -1,48 +1,27 @@
-//! Arithmetic of the GPU engine.
+//! Arithmetic of the GPU engine: what an adapter has, and what a precision is in the shaders.
 
-use super::Gpu;
 use super::layout::Real;
+use super::{AdapterReport, Gpu};
 use crate::error::{Error, Result};
+pub use crate::precision::Precision;
 
-/// Precisions of the GPU engine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Precision {
-    /// Single.
-    F32,
-    /// Single, with positions as unevaluated sums of two numbers.
-    F32Plus,
-    /// Double, on adapters that have it.
-    F64,
+impl AdapterReport {
+    /// Whether the GPU engine can compute in a precision on this adapter.
+    pub fn has(&self, precision: Precision) -> bool {
+        self.doubles || precision.is_single()
+    }
 }
 
 impl Precision {
-    pub const ALL: [Precision; 3] = [Precision::F32, Precision::F32Plus, Precision::F64];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Precision::F32 => "f32",
-            Precision::F32Plus => "f32+",
-            Precision::F64 => "f64",
-        }
-    }
-
     /// What `real` is in the shaders.
     pub fn real(self) -> Real {
-        match self {
-            Precision::F32 | Precision::F32Plus => Real::Single,
-            Precision::F64 => Real::Double,
-        }
-    }
-
-    /// Whether positions are pairs.
-    pub fn has_pairs(self) -> bool {
-        self == Precision::F32Plus
+        if self.is_single() { Real::Single } else { Real::Double }
     }
 
     /// # Errors
     /// [`Error::Unsupported`] where the adapter does not have it.
     pub fn check(self, gpu: &Gpu) -> Result<()> {
-        if self.real() == Real::Double && !gpu.report.doubles {
+        if !gpu.report.has(self) {
             return Err(Error::Unsupported {
                 what: format!(
                     "double precision on {}, whose shaders do not have it (SHADER_F64)",

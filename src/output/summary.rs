@@ -4,6 +4,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::stages::{self, Span};
 use super::{ContactScatter, Rolling};
+use crate::precision::Precision;
 use crate::record::{ContactNoise, Estimate, Sample};
 use crate::scene::{Method, Scene, Stage};
 
@@ -20,8 +21,7 @@ pub struct Summary {
     /// `gpu` or `cpu`, and why it was taken, in words.
     pub engine: String,
     pub engine_reason: String,
-    /// `f64`, `f32` or `f32+`.
-    pub precision: String,
+    pub precision: Precision,
     pub threads: usize,
     pub elements: usize,
     pub nodes: usize,

@@ -16,21 +16,16 @@
 
 use crate::model::Model;
 use crate::model::mesh::SIGNS;
+use crate::precision::Precision;
 
-/// Half a unit in the last place of positions and the unit of strains, of a precision by its name; `reach` is the largest
-/// coordinate from the axle [m].
-pub fn units(precision: &str, reach: f64) -> [f64; 2] {
-    let (single, double) = (f64::from(f32::EPSILON), f64::EPSILON);
-    match precision {
-        "f64" => [0.5 * double * reach, double],
-        // Pairs of singles: positions of 48 bits, strains from single-precision differences of them.
-        "f32+" => [0.5 * single * single * reach, single],
-        _ => [0.5 * single * reach, single],
-    }
+/// Half a unit in the last place of positions [m] and the unit of strains; `reach` is the largest coordinate from the axle
+/// [m]. Pairs of singles have finer positions, but strains come from single differences of them.
+pub fn units(precision: Precision, reach: f64) -> [f64; 2] {
+    [0.5 * precision.position_epsilon() * reach, precision.epsilon()]
 }
 
 /// Class of the rounding error after `steps` steps to the positions `x`; none of a body that is not deformed.
-pub fn rounding(model: &Model, precision: &str, x: &[[f64; 3]], steps: u64) -> Option<f64> {
+pub fn rounding(model: &Model, precision: Precision, x: &[[f64; 3]], steps: u64) -> Option<f64> {
     let nodes = &model.mesh.nodes;
     let reach = |x: &[f64; 3]| (0..3).map(|d| (x[d] - model.mesh.axle[d]).abs()).fold(0.0, f64::max);
     let [half_unit, strain_unit] = units(precision, nodes.iter().map(reach).fold(0.0, f64::max));
@@ -90,7 +85,7 @@ mod tests {
         // A third of the edges are 1 % longer.
         let pulled: Vec<[f64; 3]> = model.mesh.nodes.iter().map(|x| [x[0], x[1], 1.01 * x[2]]).collect();
         assert!((edge_stretch(&model, &pulled) / (0.01 / 3f64.sqrt()) - 1.0).abs() < 1e-9);
-        assert_eq!(rounding(&model, "f32", &model.mesh.nodes, 100), None);
+        assert_eq!(rounding(&model, Precision::F32, &model.mesh.nodes, 100), None);
     }
 
     #[test]
@@ -99,8 +94,8 @@ mod tests {
         let pulled: Vec<[f64; 3]> = model.mesh.nodes.iter().map(|x| [x[0], x[1], 1.03 * x[2]]).collect();
         let of = |precision| rounding(&model, precision, &pulled, 10_000).unwrap();
         // u = 6e-8 of 20 mm or less, a hundred of them over 20 mm, against 3 % / sqrt(3).
-        assert!((1e-4..1e-3).contains(&of("f32")), "{}", of("f32"));
-        assert!((1e-6..1e-5).contains(&of("f32+")), "{}", of("f32+"));
-        assert!(of("f64") < 1e-11, "{}", of("f64"));
+        assert!((1e-4..1e-3).contains(&of(Precision::F32)), "{}", of(Precision::F32));
+        assert!((1e-6..1e-5).contains(&of(Precision::F32Plus)), "{}", of(Precision::F32Plus));
+        assert!(of(Precision::F64) < 1e-11, "{}", of(Precision::F64));
     }
 }

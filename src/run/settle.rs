@@ -103,12 +103,13 @@ fn rounding_force(model: &Model, half_unit: f64, engine: &mut dyn Engine) -> Res
 
 /// Half a unit in the last place of the engine's positions [m]; 0 in double precision.
 fn half_unit(model: &Model, engine: &dyn Engine) -> f64 {
-    if engine.info().precision == "f64" {
+    let precision = engine.info().precision;
+    if !precision.is_single() {
         return 0.0;
     }
     let mesh = &model.mesh;
     let reach = |x: &[f64; 3]| (0..3).map(|d| (x[d] - mesh.axle[d]).abs()).fold(0.0, f64::max);
-    0.5 * f64::from(f32::EPSILON) * mesh.nodes.iter().map(reach).fold(0.0, f64::max)
+    0.5 * precision.epsilon() * mesh.nodes.iter().map(reach).fold(0.0, f64::max)
 }
 
 /// Kinetic energy that rounding the positions keeps up [J]: no relaxation comes to less. Every node at the highest

@@ -140,7 +140,7 @@ impl<'a> Tangent<'a> {
             (0..3).filter(|d| bits >> d & 1 == 1).for_each(|d| held[3 * n + d] = true);
         }
         let mass = model.mass.iter().flat_map(|&m| [m; 3]).collect();
-        let single = engine.info().precision != "f64";
+        let single = engine.info().precision.is_single();
         let size = model.classes.iter().map(|c| c.volume.cbrt()).fold(f64::INFINITY, f64::min);
         // Difference step: its truncation error (second order in the strain) against the rounding of the forces.
         let reach = size * if single { 2e-3 } else { 1e-6 };

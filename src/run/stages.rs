@@ -98,7 +98,7 @@ impl Run<'_> {
         let precision = self.engine.info().precision;
         let x = self.engine.state()?.x;
         let State { totals, recorder, settling, .. } = &self.state;
-        let rounding = estimate::rounding(self.model, &precision, &x, totals.steps);
+        let rounding = estimate::rounding(self.model, precision, &x, totals.steps);
         if stage.is_quasi_static() {
             return Ok(Estimate { rounding, residual: Some(settling.residual()), time_step: None });
         }

@@ -14,7 +14,7 @@
 //! Values are a list `a,b,c` or a range `from:to:count`; behind a range a unit may stand: `2:3:5 m/s`.
 
 use crate::scene::{Drive, Scene};
-use crate::{Error, Result};
+use crate::{Error, Precision, Result};
 
 /// An axis of a study or a sweep.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,7 +35,7 @@ pub struct Value {
 pub struct Changes {
     /// As `--set` takes them.
     pub sets: Vec<String>,
-    pub precision: Option<String>,
+    pub precision: Option<Precision>,
 }
 
 impl Axis {
@@ -100,7 +100,15 @@ impl Axis {
             if sets.is_empty() { Err(fail(problem, remedy)) } else { Ok(Changes { sets, precision: None }) }
         };
         match self.key.as_str() {
-            "precision" => Ok(Changes { sets: Vec::new(), precision: Some(value.text.clone()) }),
+            "precision" => {
+                let precision = value.text.parse().map_err(|_| {
+                    fail(
+                        "no such precision",
+                        &format!("write {}", Precision::ALL.map(Precision::name).join(", ")),
+                    )
+                })?;
+                Ok(Changes { sets: Vec::new(), precision: Some(precision) })
+            }
             "dt-safety" => Ok(one(format!("time_step.safety={}", number()?))),
             "refine" => {
                 let factor = number()?;

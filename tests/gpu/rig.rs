@@ -30,7 +30,7 @@ pub fn engine(gpu: &Gpu, who: Who, model: &Model, scene: &Scene) -> Box<dyn Engi
         Who::Double => (Box::new(on_device(gpu, model, scene, Precision::F64)), ["gpu", "f64"]),
     };
     let info = engine.info();
-    assert_eq!([info.engine.as_str(), info.precision.as_str()], expected);
+    assert_eq!([info.engine.as_str(), info.precision.name()], expected);
     engine
 }
 

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use hexroll::Precision;
 use hexroll::model::mesh::Mesh;
 use hexroll::output::RunWriter;
 use hexroll::output::compare::{Comparison, compare};
@@ -54,7 +55,7 @@ fn reference_and_changed() -> Comparison {
         fields.von_mises[5] += 7.0;
         fields.contact[4].force[0] += 9.0;
     });
-    let changed = Summary { precision: "f32".into(), dt_min_s: 2e-6, wall_time_s: 5.0, ..summary() };
+    let changed = Summary { precision: Precision::F32, dt_min_s: 2e-6, wall_time_s: 5.0, ..summary() };
     fs::write(b.join("summary.json"), serde_json::to_vec(&changed).unwrap()).unwrap();
     compare(&a, &b).unwrap()
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use hexroll::Error;
+use hexroll::Precision;
 use hexroll::model::mesh::Mesh;
 use hexroll::output::RunWriter;
 use hexroll::output::summary::{Summary, Versions};
@@ -89,7 +90,7 @@ pub fn run(dir: &Path, mesh: &Mesh, change: impl Fn(&mut Sample, &mut Snapshot))
 pub fn summary() -> Summary {
     Summary {
         engine: "cpu".into(),
-        precision: "f64".into(),
+        precision: Precision::F64,
         steps: 1000,
         dt_min_s: 1e-6,
         versions: Versions::current(),

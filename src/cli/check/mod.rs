@@ -9,17 +9,17 @@ use clap::Args;
 use serde::Serialize;
 use std::path::PathBuf;
 
-use super::choose::{self, Precision};
+use super::choose;
 use super::estimate::{self, Steps};
 use super::scene::SceneArgs;
 use super::terminal;
 use super::warnings;
 use body::Body;
-use hexroll::Result;
 use hexroll::engine::Engine;
 use hexroll::gpu::adapters;
 use hexroll::model::Model;
 use hexroll::scene::Scene;
+use hexroll::{Precision, Result, cpu};
 use programs::GpuPlan;
 use stages::StagePlan;
 
@@ -112,7 +112,7 @@ pub fn execute(args: &CheckArgs) -> Result<()> {
 fn estimates(scene: &Scene, model: &Model, steps: &Steps) -> (Vec<Estimate>, Vec<String>) {
     let reports = adapters();
     let real = choose::usable(&reports, None).filter(|a| !a.software);
-    let mut engines = vec![Ok(choose::cpu(Precision::F64, 0, model, scene))];
+    let mut engines = vec![cpu::engine(model, scene, Precision::F64, 0)];
     engines.extend(real.map(|a| choose::gpu(Some(&a.name), Precision::F32, model, scene)));
     let (mut estimates, mut notes) = (Vec::new(), Vec::new());
     for engine in engines {

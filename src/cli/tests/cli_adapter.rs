@@ -6,6 +6,7 @@
 #[path = "cli/program.rs"]
 mod program;
 
+use hexroll::Precision;
 use hexroll::output::read;
 use libtest_mimic::{Arguments, Failed, Trial};
 use program::Place;
@@ -100,7 +101,7 @@ fn gpu_engine() {
     run(&place);
     place.hexroll(&["run", "block.toml", "--engine", "gpu", "--out", "gpu"]).expect(0);
     let summary = read::summary(&place.path("gpu")).unwrap().unwrap();
-    assert_eq!((summary.engine.as_str(), summary.precision.as_str()), ("gpu", "f32"));
+    assert_eq!((summary.engine.as_str(), summary.precision), ("gpu", Precision::F32));
     assert!(summary.adapter.is_some_and(|a| !a.is_empty()));
     let comparison = hexroll::output::compare::compare(&place.path("out"), &place.path("gpu")).unwrap();
     for snapshot in &comparison.snapshots {
@@ -125,7 +126,7 @@ fn ensemble() {
         for safety in ["0.3", "0.9"] {
             let run = format!("friction.coefficient_{mu}_dt-safety_{safety}");
             let summary = read::summary(&place.path(&format!("gpu/{run}"))).unwrap().unwrap();
-            assert_eq!((summary.engine.as_str(), summary.precision.as_str()), ("gpu", "f32"));
+            assert_eq!((summary.engine.as_str(), summary.precision), ("gpu", Precision::F32));
             assert!(summary.engine_reason.contains("4 runs"), "{}", summary.engine_reason);
             steps.push(summary.steps);
             let folders = ["cpu", "gpu"].map(|out| place.path(&format!("{out}/{run}")));

@@ -46,13 +46,13 @@ impl Clock {
 /// Several independent engines at once, one a thread: the slowest one's times, the first one's state.
 pub(super) fn together(
     copies: usize,
-    make: &(dyn Fn() -> Box<dyn Engine> + Sync),
+    make: &(dyn Fn() -> Result<Box<dyn Engine>> + Sync),
     model: &Model,
     roll: &Roll,
     seconds: f64,
 ) -> Result<(Clock, State, Option<u64>)> {
     let one = || -> Result<(Clock, State, Option<u64>)> {
-        let mut engine = make();
+        let mut engine = make()?;
         let clock = Clock::run(&mut *engine, model, roll, seconds)?;
         let memory = resident_memory();
         Ok((clock, engine.state()?, memory))

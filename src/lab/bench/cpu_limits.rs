@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 
 use super::floor::Limits;
-use hexroll::cpu::Precision;
+use hexroll::Precision;
 use hexroll::physics::lanes::{InLanes, Instructions, Lanes, Level};
 use hexroll::physics::scalar::Real;
 
@@ -26,7 +26,7 @@ pub struct Copy {
 /// Limits of a number of threads in one precision with one set of instructions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CpuLimits {
-    pub precision: String,
+    pub precision: Precision,
     pub lanes: String,
     pub threads: usize,
     /// In the cache of one core, in the last cache, and in memory (four times the last cache).
@@ -47,7 +47,7 @@ impl CpuLimits {
             (4 * last, None),
         ];
         CpuLimits {
-            precision: if precision == Precision::F64 { "f64" } else { "f32" }.into(),
+            precision,
             lanes: level.name().into(),
             threads,
             copy: sizes
@@ -157,9 +157,9 @@ impl<T: Real> InLanes<T> for MultiplyAdds {
 }
 
 fn multiply_add_rate(precision: Precision, level: Level, threads: usize) -> f64 {
-    most(threads, || match precision {
-        Precision::F64 => level.call::<f64, _>(MultiplyAdds),
-        Precision::F32 => level.call::<f32, _>(MultiplyAdds),
+    most(threads, || match precision.is_single() {
+        false => level.call::<f64, _>(MultiplyAdds),
+        true => level.call::<f32, _>(MultiplyAdds),
     })
 }
 

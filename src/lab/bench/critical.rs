@@ -81,7 +81,7 @@ pub fn at_rest(
                 let scene = wheel.scene()?;
                 let model = Model::new(&scene)?;
                 let bound = stability::element_bound(&model)?;
-                let mut engine = engine(&model, &scene, Precision::F64, 0);
+                let mut engine = engine(&model, &scene, Precision::F64, 0)?;
                 report.steps.push(step(&wheel, "rest", &mut *engine, &model, bound)?);
             }
         }
@@ -115,7 +115,7 @@ pub fn steps(wheel: &Wheel) -> Result<[CriticalStep; 2]> {
     scene.stages.truncate(1);
     let model = Model::new(&scene)?;
     let bound = stability::element_bound(&model)?;
-    let mut engine = engine(&model, &scene, Precision::F64, 0);
+    let mut engine = engine(&model, &scene, Precision::F64, 0)?;
     let rest = step(wheel, "rest", &mut *engine, &model, bound)?;
     run(&scene, &model, &mut *engine, &mut Recorder::default())?;
     let pressed = step(wheel, "pressed", &mut *engine, &model, bound)?;
@@ -159,7 +159,7 @@ fn shortest_edge(model: &Model, x: &[[f64; 3]]) -> f64 {
 pub fn rolling(wheel: &Wheel, safety: f64) -> Result<RollingRun> {
     let scene = Scene { safety, ..wheel.scene()? };
     let model = Model::new(&scene)?;
-    let mut engine = engine(&model, &scene, Precision::F64, 0);
+    let mut engine = engine(&model, &scene, Precision::F64, 0)?;
     let mut kept = Recorder::default();
     let outcome = run(&scene, &model, &mut *engine, &mut kept);
     let name = &scene.stages.last().expect("the scene rolls").name;

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::cpu_limits::Copy;
 use super::floor::Limits;
-use hexroll::Result;
 use hexroll::gpu::{Gpu, limits};
+use hexroll::{Precision, Result};
 
 /// Limits of an adapter; see [`hexroll::gpu::limits`] for how they are measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -47,10 +47,11 @@ impl GpuLimits {
 
     /// Those that hold for arrays of `bytes` in all, in double precision or single: the best of the copies that are at least as
     /// large.
-    pub fn at(&self, bytes: f64, double: bool) -> Limits {
+    pub fn at(&self, bytes: f64, precision: Precision) -> Limits {
         let holds = |c: &&Copy| c.holds_to.is_none_or(|most| most as f64 >= bytes);
         let bandwidth = self.copy.iter().filter(holds).map(|c| c.bytes_per_s).fold(0.0, f64::max);
-        let flops = if double { self.flops_double_per_s.unwrap_or(f64::NAN) } else { self.flops_per_s };
+        let double = || self.flops_double_per_s.unwrap_or(f64::NAN);
+        let flops = if precision.is_single() { self.flops_per_s } else { double() };
         Limits { bandwidth, flops, latency: self.dispatch_s }
     }
 }

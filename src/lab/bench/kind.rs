@@ -1,19 +1,33 @@
-//! Engines that can be timed.
+//! Engines that can be timed: one in a precision.
 
-use hexroll::gpu;
+use hexroll::engine::Engine;
+use hexroll::gpu::{Gpu, GpuEngine};
+use hexroll::model::Model;
+use hexroll::scene::Scene;
+use hexroll::{Error, Precision, Result, cpu};
+use serde::{Deserialize, Serialize};
 
 /// Engines that can be timed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, clap::ValueEnum, Serialize, Deserialize,
+)]
 pub enum Kind {
+    #[serde(rename = "cpu-f64")]
     CpuF64,
+    #[serde(rename = "cpu-f32")]
     CpuF32,
+    #[serde(rename = "gpu-f32")]
     GpuF32,
     #[value(name = "gpu-f32+")]
+    #[serde(rename = "gpu-f32+")]
     GpuF32Plus,
+    #[serde(rename = "gpu-f64")]
     GpuF64,
 }
 
 impl Kind {
+    pub const ALL: [Kind; 5] = [Kind::CpuF64, Kind::CpuF32, Kind::GpuF32, Kind::GpuF32Plus, Kind::GpuF64];
+
     pub fn name(self) -> &'static str {
         match self {
             Kind::CpuF64 => "cpu-f64",
@@ -25,22 +39,37 @@ impl Kind {
     }
 
     pub fn on_gpu(self) -> bool {
-        self.gpu_precision().is_some()
-    }
-
-    /// Of the GPU engine, if it is one.
-    pub fn gpu_precision(self) -> Option<gpu::Precision> {
         match self {
-            Kind::CpuF64 | Kind::CpuF32 => None,
-            Kind::GpuF32 => Some(gpu::Precision::F32),
-            Kind::GpuF32Plus => Some(gpu::Precision::F32Plus),
-            Kind::GpuF64 => Some(gpu::Precision::F64),
+            Kind::CpuF64 | Kind::CpuF32 => false,
+            Kind::GpuF32 | Kind::GpuF32Plus | Kind::GpuF64 => true,
         }
     }
 
-    /// Whether it computes in double precision.
-    pub fn is_double(self) -> bool {
-        matches!(self, Kind::CpuF64 | Kind::GpuF64)
+    /// What it computes in.
+    pub fn precision(self) -> Precision {
+        match self {
+            Kind::CpuF64 | Kind::GpuF64 => Precision::F64,
+            Kind::CpuF32 | Kind::GpuF32 => Precision::F32,
+            Kind::GpuF32Plus => Precision::F32Plus,
+        }
+    }
+
+    /// The engine at rest. `threads` as [`cpu::engine`] takes them; `gpu` is the adapter of those on one.
+    ///
+    /// # Errors
+    /// [`Error::NoAdapter`] where one is needed and none is open; as [`GpuEngine::new`].
+    pub fn engine(
+        self,
+        model: &Model,
+        scene: &Scene,
+        threads: usize,
+        gpu: Option<&Gpu>,
+    ) -> Result<Box<dyn Engine>> {
+        if !self.on_gpu() {
+            return cpu::engine(model, scene, self.precision(), threads);
+        }
+        let gpu = gpu.ok_or_else(|| Error::NoAdapter { detail: "none is open".into() })?;
+        Ok(Box::new(GpuEngine::new(gpu, model, scene, self.precision())?))
     }
 
     /// Largest error of a row after `steps` over which the wheel came to a mean `deformation` [m].
@@ -50,10 +79,10 @@ impl Kind {
     /// random: sqrt(steps) times twice that is allowed, which matters where the wheel is hardly deformed yet. Beside
     /// it 1e-3: stick and slip alternate in another order (seen: 3e-4); a shear modulus off by 1 % makes 6e-3.
     pub fn error_limit(self, steps: u64, deformation: f64) -> f64 {
-        match self {
-            Kind::CpuF64 | Kind::GpuF64 => 1e-8,
-            Kind::GpuF32Plus => 1e-3,
-            Kind::CpuF32 | Kind::GpuF32 => 1e-3 + 4e-9 * (steps as f64).sqrt() / deformation,
+        match self.precision() {
+            Precision::F64 => 1e-8,
+            Precision::F32Plus => 1e-3,
+            Precision::F32 => 1e-3 + 4e-9 * (steps as f64).sqrt() / deformation,
         }
     }
 }

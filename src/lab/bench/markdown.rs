@@ -70,7 +70,7 @@ fn short(value: f64) -> String {
 
 /// Name of a row's engine with what it ran on.
 pub fn engine(row: &Row) -> String {
-    let mut name = row.engine.clone();
+    let mut name = row.engine.name().to_string();
     if row.threads > 0 {
         _ = write!(name, " {} x{}", row.lanes, row.threads);
     }
@@ -195,7 +195,7 @@ fn missing(rows: &[Missing]) -> String {
     let mut text = String::from("Not in the table:\n\n");
     for m in rows {
         let what = if m.failed { "failed" } else { "skipped" };
-        _ = writeln!(text, "- {} {} {} {what}: {}", m.engine, m.element, m.elements, m.reason);
+        _ = writeln!(text, "- {} {} {} {what}: {}", m.engine.name(), m.element, m.elements, m.reason);
     }
     text + "\n"
 }
@@ -279,7 +279,7 @@ fn straight(runs: &[StraightRun]) -> String {
     ]);
     for r in runs {
         text += &line(&[
-            r.engine.clone(),
+            r.engine.name().into(),
             r.threads.to_string(),
             r.element.clone(),
             short(r.viscosity),

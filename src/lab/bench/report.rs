@@ -6,6 +6,7 @@ use super::cpu_limits::CpuLimits;
 use super::critical::CriticalReport;
 use super::floor::Bound;
 use super::gpu_limits::GpuLimits;
+use super::kind::Kind;
 use super::machine::Machine;
 use super::straight::StraightRun;
 use super::work::Pass;
@@ -53,8 +54,7 @@ impl Spread {
 /// One engine on one wheel.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// `cpu-f64`, `cpu-f32`, `gpu-f32`, `gpu-f32+`
-    pub engine: String,
+    pub engine: Kind,
     /// Instructions of a CPU engine, adapter of a GPU engine.
     pub lanes: String,
     /// 0 on a GPU.
@@ -111,7 +111,7 @@ impl Row {
 /// A row that is not there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Missing {
-    pub engine: String,
+    pub engine: Kind,
     pub element: String,
     pub elements: usize,
     /// Did not fit or was not possible here (`false`), or went wrong (`true`).
@@ -124,9 +124,16 @@ impl Report {
     pub fn failures(&self) -> Vec<String> {
         let of_row = |r: &Row| {
             let error = r.error.map_or("is not finite".into(), |e| format!("{e:.1e}"));
-            format!("{} {} {}: error {error} (limit {:.0e})", r.engine, r.element, r.elements, r.error_limit)
+            format!(
+                "{} {} {}: error {error} (limit {:.0e})",
+                r.engine.name(),
+                r.element,
+                r.elements,
+                r.error_limit
+            )
         };
-        let of_missing = |m: &Missing| format!("{} {} {}: {}", m.engine, m.element, m.elements, m.reason);
+        let of_missing =
+            |m: &Missing| format!("{} {} {}: {}", m.engine.name(), m.element, m.elements, m.reason);
         let wrong = self.rows.iter().filter(|r| r.failed()).map(of_row);
         wrong.chain(self.missing.iter().filter(|m| m.failed).map(of_missing)).collect()
     }

@@ -10,14 +10,14 @@ use super::machine::{available_memory, resident_memory};
 use super::report::{Missing, Report, Row, Spread};
 use super::wheel::{Roll, Wheel};
 use super::work::{self, Pass};
-use hexroll::cpu::{Precision, engine_at};
+use hexroll::cpu::engine_at;
 use hexroll::engine::{Engine, State};
 use hexroll::gpu::{Gpu, GpuEngine, PassTime, PassTimes};
 use hexroll::model::Model;
 use hexroll::model::shuffle::{distorted, shuffled};
 use hexroll::physics::lanes::Level;
 use hexroll::scene::Scene;
-use hexroll::{Error, Result};
+use hexroll::{Error, Precision, Result};
 
 /// What the table covers.
 #[derive(Debug, Clone)]
@@ -171,7 +171,7 @@ impl Bench<'_> {
 
     fn miss(&mut self, kind: Kind, failed: bool, reason: String) {
         self.report.missing.push(Missing {
-            engine: kind.name().into(),
+            engine: kind,
             element: self.wheel.element.into(),
             elements: self.wheel.elements,
             failed,
@@ -192,12 +192,11 @@ impl Bench<'_> {
         if kind.on_gpu() {
             return self.time_gpu(kind, model, scene, roll, seconds);
         }
-        let precision = if kind.is_double() { Precision::F64 } else { Precision::F32 };
-        let make = || engine_at(model, scene, precision, threads, level);
+        let make = || engine_at(model, scene, kind.precision(), threads, level);
         let copies = self.options.copies;
         let before = resident_memory();
         let (clock, state, after) = if copies == 1 {
-            let mut engine = make();
+            let mut engine = make()?;
             let clock = Clock::run(&mut *engine, model, roll, seconds)?;
             // Before the state is copied, which is not the engine's.
             let after = resident_memory();
@@ -226,8 +225,7 @@ impl Bench<'_> {
                 instead: "take gpu-f32, or --copies 1".into(),
             });
         }
-        let precision = kind.gpu_precision().expect("it is on the GPU");
-        let mut engine = GpuEngine::new(gpu, model, scene, precision)?;
+        let mut engine = GpuEngine::new(gpu, model, scene, kind.precision())?;
         let Clock { us, steps, batch } = Clock::run(&mut engine, model, roll, seconds)?;
         let by_pass = engine.timed_advance(&roll.steps(steps, batch.min(512)))?;
         let steps = steps + by_pass.steps;
@@ -250,7 +248,7 @@ impl Bench<'_> {
         }
         let (bytes, flops) = totals(&passes);
         let limits = match (kind.on_gpu(), &self.report.limits.gpu) {
-            (true, Some(gpu)) => gpu.at(4.0 / 3.0 * arrays(kind, model), kind.is_double()),
+            (true, Some(gpu)) => gpu.at(4.0 / 3.0 * arrays(kind, model), kind.precision()),
             _ => self.limits(kind, level, threads * copies, count * arrays(kind, model)),
         };
         // Rates of the limits are of all copies together: a copy has its share.
@@ -259,7 +257,7 @@ impl Bench<'_> {
         let fraction = 1e6 * floor.seconds / timed.us.median;
         let (error, deformation) = roll.error(model, timed.steps, &timed.state, reference);
         Row {
-            engine: kind.name().into(),
+            engine: kind,
             lanes: if kind.on_gpu() { String::new() } else { level.name().into() },
             threads,
             copies,
@@ -295,12 +293,10 @@ impl Bench<'_> {
 
     /// The limits of an engine, measured when the first row needs them.
     fn limits(&mut self, kind: Kind, level: Level, threads: usize, bytes: f64) -> Limits {
-        let precision = if kind.is_double() { Precision::F64 } else { Precision::F32 };
-        let name = if kind.is_double() { "f64" } else { "f32" };
+        let precision = kind.precision();
         let known = &mut self.report.limits.cpu;
-        let same = |l: &CpuLimits| {
-            (l.precision.as_str(), l.lanes.as_str(), l.threads) == (name, level.name(), threads)
-        };
+        let same =
+            |l: &CpuLimits| (l.precision, l.lanes.as_str(), l.threads) == (precision, level.name(), threads);
         let at = known.iter().position(same).unwrap_or_else(|| {
             known.push(CpuLimits::measure(precision, level, threads));
             known.len() - 1
@@ -311,9 +307,9 @@ impl Bench<'_> {
 
 /// Passes of a step, and the largest share of the multiply-add rate that the force routine's operations can reach.
 fn cost(kind: Kind, model: &Model) -> (Vec<Pass>, f64) {
-    let (passes, operations) = match kind.is_double() {
-        true => (work::cpu_passes::<f64>(model), work::element_operations::<f64>(model)),
-        false => (work::cpu_passes::<f32>(model), work::element_operations::<f32>(model)),
+    let (passes, operations) = match kind.precision().is_single() {
+        true => (work::cpu_passes::<f32>(model), work::element_operations::<f32>(model)),
+        false => (work::cpu_passes::<f64>(model), work::element_operations::<f64>(model)),
     };
     (passes, operations.flops() as f64 / (2.0 * operations.places() as f64))
 }
@@ -321,9 +317,9 @@ fn cost(kind: Kind, model: &Model) -> (Vec<Pass>, f64) {
 /// Passes of a GPU engine: the bytes of their bindings, and their arithmetic. That of all nodes is booked in the pass of
 /// most of them.
 fn gpu_passes(kind: Kind, times: &PassTimes, model: &Model) -> Vec<Pass> {
-    let [elements, nodes] = match kind.is_double() {
-        true => work::step_operations::<f64>(model),
-        false => work::step_operations::<f32>(model),
+    let [elements, nodes] = match kind.precision().is_single() {
+        true => work::step_operations::<f32>(model),
+        false => work::step_operations::<f64>(model),
     };
     let flops = |kernel: &str| match kernel {
         "element_force" => elements,
@@ -337,9 +333,9 @@ fn gpu_passes(kind: Kind, times: &PassTimes, model: &Model) -> Vec<Pass> {
 
 /// Size of an engine's arrays [bytes].
 fn arrays(kind: Kind, model: &Model) -> f64 {
-    match kind.is_double() {
-        true => work::cpu_arrays::<f64>(model),
-        false => work::cpu_arrays::<f32>(model),
+    match kind.precision().is_single() {
+        true => work::cpu_arrays::<f32>(model),
+        false => work::cpu_arrays::<f64>(model),
     }
 }
 
@@ -397,7 +393,7 @@ fn references(model: &Model, scene: &Scene, roll: &Roll, timed: &[Timed]) -> Res
     if order.is_empty() {
         return Ok(states);
     }
-    let mut engine = engine_at(model, scene, Precision::F64, 0, Level::detect());
+    let mut engine = engine_at(model, scene, Precision::F64, 0, Level::detect())?;
     roll.start(&mut *engine, model)?;
     let mut taken = 0;
     for k in order {

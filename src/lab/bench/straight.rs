@@ -6,19 +6,17 @@ use serde::{Deserialize, Serialize};
 
 use super::kind::Kind;
 use super::wheel::Wheel;
-use hexroll::cpu::{self, Precision};
-use hexroll::engine::Engine;
-use hexroll::gpu::{Gpu, GpuEngine};
+use hexroll::Result;
+use hexroll::gpu::Gpu;
 use hexroll::model::Model;
 use hexroll::record::{Sample, Snapshot};
 use hexroll::run::{Observer, Progress, run};
-use hexroll::{Error, Result};
 
 /// 0.1 s of rolling after the wheel was pressed, timed with everything that a run does but its files: critical
 /// steps, samples every millisecond, snapshots.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StraightRun {
-    pub engine: String,
+    pub engine: Kind,
     pub threads: usize,
     pub element: String,
     pub elements: usize,
@@ -61,15 +59,7 @@ pub fn measure(
     let wheel = Wheel { elements: 880, element, contact: true, viscosity };
     let scene = wheel.scene()?;
     let model = Model::new(&scene)?;
-    let mut engine: Box<dyn Engine> = match kind {
-        Kind::CpuF64 => cpu::engine(&model, &scene, Precision::F64, threads),
-        Kind::CpuF32 => cpu::engine(&model, &scene, Precision::F32, threads),
-        Kind::GpuF32 | Kind::GpuF32Plus | Kind::GpuF64 => {
-            let gpu = gpu.ok_or(Error::NoAdapter { detail: "none is open".into() })?;
-            let precision = kind.gpu_precision().expect("it is on the GPU");
-            Box::new(GpuEngine::new(gpu, &model, &scene, precision)?)
-        }
-    };
+    let mut engine = kind.engine(&model, &scene, threads, gpu)?;
     let rolling = scene.stages.last().expect("the scene rolls").name.clone();
     let begun = Instant::now();
     let mut clock = Clock { rolling, pressed: None, steps: 0, rows: Vec::new() };
@@ -79,7 +69,7 @@ pub fn measure(
     let last = &clock.rows[clock.rows.len().saturating_sub(30)..];
     let mean = |of: fn(&Sample) -> f64| last.iter().map(of).sum::<f64>() / last.len() as f64;
     Ok(StraightRun {
-        engine: kind.name().into(),
+        engine: kind,
         threads: if kind.on_gpu() { 0 } else { threads },
         element: element.into(),
         elements: model.element_count(),

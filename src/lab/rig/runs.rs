@@ -111,7 +111,7 @@ pub fn simulate(scene: &Scene) -> Result<Outcome> {
 /// # Errors
 /// What the run reports.
 pub fn simulate_with(scene: &Scene, model: Model, precision: Precision, threads: usize) -> Result<Outcome> {
-    let mut engine = cpu::engine(&model, scene, precision, threads);
+    let mut engine = cpu::engine(&model, scene, precision, threads)?;
     let mut recorder = Recorder::default();
     let totals = simulate_on(scene, &model, &mut *engine, &mut recorder)?;
     Ok(Outcome { samples: recorder.samples, snapshots: recorder.snapshots, totals, model })
@@ -153,7 +153,7 @@ impl Driver {
     /// # Errors
     /// If the engine cannot begin.
     pub fn new(model: &Model, scene: &Scene) -> Result<Driver> {
-        let mut engine = cpu::engine(model, scene, Precision::F64, 1);
+        let mut engine = cpu::engine(model, scene, Precision::F64, 1)?;
         engine.begin_stage(&StageSetup::default())?;
         let [x, y, z] = model.mesh.axle;
         Ok(Driver { engine, rim: [x, y, z, 0.0, 0.0, 0.0], time: 0.0, dt_before: 0.0 })

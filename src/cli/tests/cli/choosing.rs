@@ -1,8 +1,8 @@
 //! Which engines may run a scene, and which adapter is taken.
 
-use hexroll::Error;
 use hexroll::gpu::AdapterReport;
-use hexroll_cli::choose::{Candidates, EngineChoice, Precision, candidates, usable};
+use hexroll::{Error, Precision};
+use hexroll_cli::choose::{Candidates, EngineChoice, candidates, usable};
 
 use EngineChoice::{Auto, Cpu, Gpu};
 use Precision::{F32, F32Plus, F64};

@@ -1,5 +1,6 @@
 //! `hexroll run` on the CPU engine: files, table, overrides.
 
+use hexroll::Precision;
 use hexroll::output::read;
 
 use super::program::{Done, Place, shipped};
@@ -29,7 +30,7 @@ fn a_run_leaves_every_file_readable_and_says_where() {
     assert!(read::scene_text(&dir).unwrap().unwrap().contains("A block falls"));
 
     let summary = read::summary(&dir).unwrap().unwrap();
-    assert_eq!((summary.engine.as_str(), summary.precision.as_str()), ("cpu", "f64"));
+    assert_eq!((summary.engine.as_str(), summary.precision), ("cpu", Precision::F64));
     assert_eq!(summary.steps, last.snapshot.step);
     assert!((summary.time_s - 1e-3).abs() < 1e-15, "{}", summary.time_s);
     assert!(summary.dt_min_s > 0.0 && summary.dt_min_s <= summary.dt_max_s);
@@ -77,7 +78,7 @@ fn single_precision_and_threads_are_what_was_asked_for() {
     let place = Place::new();
     run(&place, &["--precision", "f32", "--threads", "1", "--out", "single"]).expect(0);
     let summary = read::summary(&place.path("single")).unwrap().unwrap();
-    assert_eq!((summary.precision.as_str(), summary.threads), ("f32", 1));
+    assert_eq!((summary.precision, summary.threads), (Precision::F32, 1));
     // Round-off of single precision, not of double.
     assert!(summary.balance.share_of_largest_term > 1e-14, "{:?}", summary.balance);
 }

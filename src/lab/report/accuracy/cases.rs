@@ -1,5 +1,6 @@
 //! The problems that are measured, and the settings they are measured with.
 
+use crate::bench::kind::Kind;
 use crate::rig::{down, given, press, rolling, wheel};
 use hexroll::scene::*;
 
@@ -44,48 +45,31 @@ impl Problem {
     }
 }
 
-/// Who computes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Machine {
-    Cpu64,
-    Cpu32,
-    Gpu32,
-    GpuPairs,
-    Gpu64,
-}
-
-impl Machine {
-    pub const ALL: [Machine; 5] =
-        [Machine::Cpu64, Machine::Cpu32, Machine::Gpu32, Machine::GpuPairs, Machine::Gpu64];
-
-    pub fn on_gpu(self) -> bool {
-        matches!(self, Machine::Gpu32 | Machine::GpuPairs | Machine::Gpu64)
-    }
-
-    /// The engine with this name.
-    pub fn named(name: &str) -> Option<Machine> {
-        Machine::ALL.into_iter().find(|m| m.name() == name)
-    }
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Machine::Cpu64 => "cpu f64",
-            Machine::Cpu32 => "cpu f32",
-            Machine::Gpu32 => "gpu f32",
-            Machine::GpuPairs => "gpu f32+",
-            Machine::Gpu64 => "gpu f64",
-        }
-    }
-}
-
 /// One cell of the matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting {
-    pub machine: Machine,
+    /// Who computes.
+    pub machine: Kind,
     pub element: Element,
     /// Refinement: 1 is 44 x 4 x 5 elements, or a bar of 50.
     pub mesh: usize,
     pub safety: f64,
+}
+
+/// Name of an engine in tables.
+pub fn machine_name(machine: Kind) -> &'static str {
+    match machine {
+        Kind::CpuF64 => "cpu f64",
+        Kind::CpuF32 => "cpu f32",
+        Kind::GpuF32 => "gpu f32",
+        Kind::GpuF32Plus => "gpu f32+",
+        Kind::GpuF64 => "gpu f64",
+    }
+}
+
+/// The engine with this name in tables.
+pub fn machine_named(name: &str) -> Option<Kind> {
+    Kind::ALL.into_iter().find(|m| machine_name(*m) == name)
 }
 
 /// Name of a formulation in scenes.

@@ -15,7 +15,7 @@ mod runs;
 mod tables;
 mod timing;
 
-pub use cases::{ELEMENTS, Machine, Problem, Setting};
+pub use cases::{ELEMENTS, Problem, Setting};
 pub use pareto::picture;
 pub use reference::Reference;
 pub use runs::{Matrix, Measured, Row, measure};

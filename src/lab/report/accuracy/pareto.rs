@@ -2,9 +2,10 @@
 
 use image::{Rgba, RgbaImage};
 
-use super::cases::{Machine, Problem};
+use super::cases::Problem;
 use super::reference::Reference;
 use super::runs::{Measured, Row};
+use crate::bench::kind::Kind;
 use hexroll::Result;
 use hexroll::render::canvas::{Anchor, Canvas, Fonts, Weight};
 use hexroll::scene::Element;
@@ -65,11 +66,11 @@ fn legend(canvas: &mut Canvas, rows: &[Row]) {
     }
     x = left;
     let machines = [
-        ("f64", Machine::Cpu64),
-        ("f32", Machine::Cpu32),
-        ("GPU f32", Machine::Gpu32),
-        ("GPU f32+", Machine::GpuPairs),
-        ("GPU f64", Machine::Gpu64),
+        ("f64", Kind::CpuF64),
+        ("f32", Kind::CpuF32),
+        ("GPU f32", Kind::GpuF32),
+        ("GPU f32+", Kind::GpuF32Plus),
+        ("GPU f64", Kind::GpuF64),
     ];
     for (name, machine) in machines.into_iter().filter(|(_, m)| rows.iter().any(|r| r.setting.machine == *m))
     {
@@ -97,14 +98,14 @@ fn legend(canvas: &mut Canvas, rows: &[Row]) {
 }
 
 /// f64 discs, f32 rings, GPU squares (pairs: open ones; f64: on a corner).
-fn mark(canvas: &mut Canvas, at: [f64; 2], machine: Machine, colour: [u8; 3]) {
+fn mark(canvas: &mut Canvas, at: [f64; 2], machine: Kind, colour: [u8; 3]) {
     let square = |r: f64| [[-r, -r], [r, -r], [r, r], [-r, r]].map(|[x, y]: [f64; 2]| [at[0] + x, at[1] + y]);
     match machine {
-        Machine::Cpu64 => canvas.disc(at, 5.5, colour, None),
-        Machine::Cpu32 => canvas.disc(at, 4.5, [255; 3], Some((2.0, colour))),
-        Machine::Gpu32 => canvas.polygon(&square(5.0), colour, None),
-        Machine::GpuPairs => canvas.polygon(&square(4.5), [255; 3], Some((2.0, colour))),
-        Machine::Gpu64 => {
+        Kind::CpuF64 => canvas.disc(at, 5.5, colour, None),
+        Kind::CpuF32 => canvas.disc(at, 4.5, [255; 3], Some((2.0, colour))),
+        Kind::GpuF32 => canvas.polygon(&square(5.0), colour, None),
+        Kind::GpuF32Plus => canvas.polygon(&square(4.5), [255; 3], Some((2.0, colour))),
+        Kind::GpuF64 => {
             let turned = [[0.0, -7.0], [7.0, 0.0], [0.0, 7.0], [-7.0, 0.0]];
             canvas.polygon(&turned.map(|[x, y]: [f64; 2]| [at[0] + x, at[1] + y]), colour, None)
         }

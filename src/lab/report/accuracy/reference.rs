@@ -1,7 +1,8 @@
 //! What errors are against: double precision, `q1p0`, on the three finest meshes.
 
-use super::cases::{Machine, Problem, Setting};
+use super::cases::{Problem, Setting};
 use super::runs::{Field, Run};
+use crate::bench::kind::Kind;
 use hexroll::Result;
 use hexroll::scene::Element;
 use hexroll::study::convergence::{Convergence, FORMAL_ORDER, Level, judge};
@@ -46,7 +47,7 @@ impl Reference {
         }
         let last = finest.max(3);
         let chosen = [last, (3 * last).div_ceil(4).min(last - 1), last / 2];
-        let at = |mesh| Setting { machine: Machine::Cpu64, element: Element::Q1p0, mesh, safety: 0.9 };
+        let at = |mesh| Setting { machine: Kind::CpuF64, element: Element::Q1p0, mesh, safety: 0.9 };
         let runs = chosen.iter().map(|&m| run(&at(m))).collect::<Result<Vec<Run>>>()?;
         let levels: Vec<Level> =
             (chosen.iter().zip(&runs)).map(|(&m, r)| Level { h: 1.0 / m as f64, value: r.value }).collect();

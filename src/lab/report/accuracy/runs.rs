@@ -3,17 +3,17 @@
 use std::collections::HashMap;
 use std::time::Instant;
 
-use super::cases::{MEAN, Machine, Problem, Setting, element_name, scene};
+use super::cases::{MEAN, Problem, Setting, element_name, machine_name, scene};
 use super::reference::Reference;
+use crate::bench::kind::Kind;
 use crate::rig::{Recorder, block, hold, simulate_on};
-use hexroll::cpu::{self, Precision};
-use hexroll::engine::{Engine, Step};
-use hexroll::gpu::{self, Gpu, GpuEngine};
+use hexroll::Result;
+use hexroll::engine::Step;
+use hexroll::gpu::Gpu;
 use hexroll::model::Model;
 use hexroll::record::{Sample, Snapshot};
 use hexroll::run::stability;
-use hexroll::scene::{Element, Scene};
-use hexroll::{Error, Result};
+use hexroll::scene::Element;
 
 /// What is measured with what.
 #[derive(Debug, Clone)]
@@ -126,8 +126,9 @@ pub fn measure(
             Ok(run)
         })?;
         measured.references.push(reference.clone());
-        let has =
-            |s: &Setting| s.machine != Machine::Gpu64 || gpu.as_ref().is_some_and(|gpu| gpu.report.doubles);
+        let has = |s: &Setting| {
+            !s.machine.on_gpu() || gpu.as_ref().is_none_or(|gpu| gpu.report.has(s.machine.precision()))
+        };
         for setting in matrix.settings().into_iter().filter(has) {
             let row = known.row(&setting, &reference)?;
             let line = row.to_string();
@@ -143,7 +144,7 @@ impl Matrix {
         let mut all = Vec::new();
         for &mesh in &self.meshes {
             for &element in &self.elements {
-                for machine in Machine::ALL {
+                for machine in Kind::ALL {
                     let safeties = match machine.on_gpu() {
                         true if mesh > self.gpu => &[],
                         true => &self.safeties[..1],
@@ -182,9 +183,9 @@ impl Known<'_> {
 
     fn row(&mut self, setting: &Setting, reference: &Reference) -> Result<Row> {
         let run = self.run(setting)?;
-        let double = self.run(&Setting { machine: Machine::Cpu64, ..*setting })?;
+        let double = self.run(&Setting { machine: Kind::CpuF64, ..*setting })?;
         let short = match setting.mesh <= self.matrix.split {
-            true => self.run(&Setting { machine: Machine::Cpu64, safety: SHORT, ..*setting })?.value,
+            true => self.run(&Setting { machine: Kind::CpuF64, safety: SHORT, ..*setting })?.value,
             false => f64::NAN,
         };
         // The wave's value is its error already.
@@ -202,7 +203,7 @@ impl Known<'_> {
             error: off(run.value, reference.value),
             discretisation: off(short, reference.value),
             time_step: off(double.value, short),
-            rounding: if setting.machine == Machine::Cpu64 { f64::NAN } else { off(run.value, double.value) },
+            rounding: if setting.machine == Kind::CpuF64 { f64::NAN } else { off(run.value, double.value) },
             area: run.area / reference.area - 1.0,
             displacement: difference(&run.field, &reference.field),
             balance: run.balance,
@@ -225,26 +226,6 @@ fn difference(a: &Field, b: &Field) -> f64 {
     if off > 0.0 { (off / all).sqrt() } else { f64::NAN }
 }
 
-pub(super) fn engine<'a>(
-    setting: &Setting,
-    model: &Model,
-    scene: &Scene,
-    threads: usize,
-    gpu: Option<&Gpu>,
-) -> Result<Box<dyn Engine + 'a>> {
-    let on_gpu = |precision| -> Result<Box<dyn Engine + 'a>> {
-        let gpu = gpu.ok_or_else(|| Error::NoAdapter { detail: "none was opened".into() })?;
-        Ok(Box::new(GpuEngine::new(gpu, model, scene, precision)?))
-    };
-    match setting.machine {
-        Machine::Cpu64 => Ok(cpu::engine(model, scene, Precision::F64, threads)),
-        Machine::Cpu32 => Ok(cpu::engine(model, scene, Precision::F32, threads)),
-        Machine::Gpu32 => on_gpu(gpu::Precision::F32),
-        Machine::GpuPairs => on_gpu(gpu::Precision::F32Plus),
-        Machine::Gpu64 => on_gpu(gpu::Precision::F64),
-    }
-}
-
 /// Runs the problem's wheel with output windows of `sample` [s].
 pub(super) fn rolled(
     problem: Problem,
@@ -256,7 +237,7 @@ pub(super) fn rolled(
     let mut scene = scene(problem, setting);
     scene.output.sample = sample;
     let model = Model::new(&scene)?;
-    let mut engine = engine(setting, &model, &scene, threads, gpu)?;
+    let mut engine = setting.machine.engine(&model, &scene, threads, gpu)?;
     let mut recorder = Recorder::default();
     let totals = simulate_on(&scene, &model, &mut *engine, &mut recorder)?;
     let rows = &recorder.samples;
@@ -304,7 +285,7 @@ pub(super) fn wave(setting: &Setting, threads: usize, gpu: Option<&Gpu>) -> Resu
     scene.body.element = setting.element;
     scene.holds = vec![hold("all", "yz")];
     let model = Model::new(&scene)?;
-    let mut engine = engine(setting, &model, &scene, threads, gpu)?;
+    let mut engine = setting.machine.engine(&model, &scene, threads, gpu)?;
     engine.begin_stage(&hexroll::engine::StageSetup::default())?;
     let c = (scene.body.law.wave_modulus() / scene.body.density).sqrt();
     let a = |s: f64| std::f64::consts::PI * s.clamp(-0.5 * PULSE, 0.5 * PULSE) / PULSE;
@@ -358,7 +339,7 @@ pub(super) fn wave(setting: &Setting, threads: usize, gpu: Option<&Gpu>) -> Resu
 impl std::fmt::Display for Row {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         let Setting { machine, element, mesh, safety } = self.setting;
-        let (problem, machine, element) = (self.problem.name(), machine.name(), element_name(element));
+        let (problem, machine, element) = (self.problem.name(), machine_name(machine), element_name(element));
         write!(f, "{problem:9} {machine:9} {element:17} x{mesh} safety {safety}: error {:.2e}", self.error)
     }
 }
@@ -366,6 +347,7 @@ impl std::fmt::Display for Row {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hexroll::Error;
 
     /// The wave on its coarsest mesh.
     fn matrix() -> Matrix {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use super::cases::{ELEMENTS, Machine, Problem, Setting, element_name};
+use super::cases::{ELEMENTS, Problem, Setting, element_name, machine_name, machine_named};
 use super::reference::Reference;
 use super::runs::{Measured, Row};
 use super::timing::Window;
@@ -53,7 +53,7 @@ pub fn csv(measured: &Measured) -> String {
             Some(known) => (known.value, known.within, known.how.replace(',', ";")),
             None => (f64::NAN, f64::NAN, String::new()),
         };
-        let names = [r.problem.name(), s.machine.name(), element_name(s.element)].join(",");
+        let names = [r.problem.name(), machine_name(s.machine), element_name(s.element)].join(",");
         let counts = format!("{},{},{},{},{}", s.mesh, r.elements, s.safety, r.steps, r.eigenvalue);
         let numbers = [
             r.wall,
@@ -128,7 +128,7 @@ fn parse_row(cells: &[&str]) -> Option<(Row, Reference)> {
     let number = |name: &str| cell[name].parse::<f64>().ok();
     let problem = Problem::named(cell["problem"])?;
     let setting = Setting {
-        machine: Machine::named(cell["machine"])?,
+        machine: machine_named(cell["machine"])?,
         element: ELEMENTS.into_iter().find(|e| element_name(*e) == cell["element"])?,
         mesh: cell["mesh"].parse().ok()?,
         safety: number("safety")?,
@@ -214,7 +214,7 @@ fn cells(r: &Row) -> Vec<String> {
     let seconds = |v: f64| if v.is_nan() { "-".into() } else { format!("{} s", short(v)) };
     let rate = |v: f64| if v.is_nan() { "-".into() } else { format!("{:.1} M/s", 1e-6 * v) };
     vec![
-        r.setting.machine.name().into(),
+        machine_name(r.setting.machine).into(),
         element_name(r.setting.element).into(),
         format!("x{} ({})", r.setting.mesh, r.elements),
         r.setting.safety.to_string(),
@@ -245,7 +245,7 @@ pub fn advice(measured: &Measured) -> String {
                 None => vec![goal, problem.name().into(), "none of these".into(), "-".into(), "-".into()],
                 Some(best) => {
                     let s = &best.setting;
-                    let (machine, element) = (s.machine.name(), element_name(s.element));
+                    let (machine, element) = (machine_name(s.machine), element_name(s.element));
                     vec![
                         goal,
                         problem.name().into(),
@@ -279,8 +279,9 @@ pub fn windows(windows: &[Window]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::kind::Kind;
 
-    fn row(machine: Machine, mesh: usize, error: f64, wall: f64) -> Row {
+    fn row(machine: Kind, mesh: usize, error: f64, wall: f64) -> Row {
         Row {
             problem: Problem::Slip5,
             setting: Setting { machine, element: ELEMENTS[1], mesh, safety: 0.45 },
@@ -302,9 +303,9 @@ mod tests {
 
     fn measured() -> Measured {
         let rows = vec![
-            row(Machine::Cpu64, 1, 0.03, 1.0),
-            row(Machine::Cpu32, 2, 0.004, 5.0),
-            row(Machine::Cpu64, 2, 0.004, 9.0),
+            row(Kind::CpuF64, 1, 0.03, 1.0),
+            row(Kind::CpuF32, 2, 0.004, 5.0),
+            row(Kind::CpuF64, 2, 0.004, 9.0),
         ];
         let reference = Reference {
             problem: Problem::Slip5,

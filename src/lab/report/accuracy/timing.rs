@@ -6,8 +6,9 @@
 use std::collections::HashMap;
 use std::time::Instant;
 
-use super::cases::{Machine, Problem, Setting, element_name, scene};
-use super::runs::{Row, engine, rolled, wave};
+use super::cases::{Problem, Setting, element_name, machine_name, scene};
+use super::runs::{Row, rolled, wave};
+use crate::bench::kind::Kind;
 use crate::bench::wheel::Roll;
 use hexroll::Result;
 use hexroll::gpu::Gpu;
@@ -49,7 +50,7 @@ pub fn time(rows: &mut [Row], threads: usize) -> Result<Vec<Window>> {
         } else {
             "elastic"
         };
-        let key = format!("{what} {} {} {}", s.machine.name(), element_name(s.element), s.mesh);
+        let key = format!("{what} {} {} {}", machine_name(s.machine), element_name(s.element), s.mesh);
         let each = match steps.get(&key) {
             Some(&each) => each,
             None => {
@@ -72,7 +73,7 @@ pub fn time(rows: &mut [Row], threads: usize) -> Result<Vec<Window>> {
 fn step(problem: Problem, setting: &Setting, threads: usize, gpu: Option<&Gpu>) -> Result<f64> {
     let scene = scene(problem, setting);
     let model = Model::new(&scene)?;
-    let mut engine = engine(setting, &model, &scene, threads, gpu)?;
+    let mut engine = setting.machine.engine(&model, &scene, threads, gpu)?;
     let roll = Roll::new(&model)?;
     roll.start(&mut *engine, &model)?;
     let mut taken = 0;
@@ -95,7 +96,7 @@ fn median(mut times: Vec<f64>) -> f64 {
 
 /// The straight run of the coarse wheel with windows of 0.1, 1 and 5 ms.
 fn windows(threads: usize) -> Result<Vec<Window>> {
-    let setting = Setting { machine: Machine::Cpu64, element: Element::Q1p0, mesh: 1, safety: 0.9 };
+    let setting = Setting { machine: Kind::CpuF64, element: Element::Q1p0, mesh: 1, safety: 0.9 };
     [1e-4, 1e-3, 5e-3]
         .into_iter()
         .map(|sample| {
