@@ -60,6 +60,13 @@ pub enum Error {
     )]
     TooLarge { what: String, need: u64, limit: u64, adapter: String, fits: u64 },
 
+    /// The run needs more memory than there is: nothing of it has been taken yet.
+    #[error(
+        "{elements} elements need {:.2} GB ({parts}), but {:.2} GB can be had ({limit}); {fits}", 1e-9 * *need as f64,
+        1e-9 * *there as f64
+    )]
+    Memory { elements: u64, need: u64, parts: String, there: u64, limit: &'static str, fits: String },
+
     /// A picture that cannot be drawn from the data given.
     #[error("cannot draw the picture: {problem}")]
     Picture { problem: String },
@@ -89,13 +96,16 @@ pub enum Error {
 pub type Result<T> = std::result::Result<T, Error>;
 
 impl Error {
-    /// Exit code of the program: 2 bad input, 3 no such feature, 4 no usable adapter, 5 the run failed
+    /// Exit code of the program: 2 bad input, 3 no such feature, 4 no usable adapter or not memory enough, 5 the run failed
     /// numerically, 6 files, 130 interrupted.
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Scene { .. } => 2,
             Error::Unsupported { .. } => 3,
-            Error::NoAdapter { .. } | Error::TooLarge { .. } | Error::Device { .. } => 4,
+            Error::NoAdapter { .. }
+            | Error::TooLarge { .. }
+            | Error::Memory { .. }
+            | Error::Device { .. } => 4,
             Error::Inverted { .. }
             | Error::NotFinite { .. }
             | Error::Unbalanced { .. }

@@ -10,6 +10,7 @@ pub mod error;
 pub mod gpu;
 pub mod implicit;
 pub mod instructions;
+pub mod memory;
 pub mod model;
 pub mod output;
 pub mod plot;

@@ -8,8 +8,10 @@ use super::format::{duration, updates};
 use hexroll::cpu;
 use hexroll::engine::Engine;
 use hexroll::gpu::{AdapterReport, Gpu, GpuEngine, adapters};
+use hexroll::memory::{self, Need};
 use hexroll::model::Model;
-use hexroll::scene::Scene;
+use hexroll::run::stability;
+use hexroll::scene::{Method, Scene};
 use hexroll::{Error, Precision, Result};
 
 /// Engines a user can ask for.
@@ -92,6 +94,27 @@ pub fn candidates(engine: EngineChoice, precision: Option<Precision>) -> Result<
 pub fn usable<'a>(reports: &'a [AdapterReport], name: Option<&str>) -> Option<&'a AdapterReport> {
     let named = |r: &AdapterReport| name.is_none_or(|n| r.name.to_lowercase().contains(&n.to_lowercase()));
     reports.iter().find(|r| r.unusable.is_none() && named(r))
+}
+
+/// What a body needs in memory, and, in a precision, its run on the CPU engine.
+pub fn need(scene: &Scene, engine: Option<Precision>) -> Need {
+    let body = hexroll::model::memory::body(scene);
+    let Some(precision) = engine else { return body.into() };
+    // Implicit stages have no critical step.
+    let explicit = scene.stages.iter().any(|s| !matches!(s.method, Method::Implicit(_)));
+    let search = explicit.then(|| stability::search(scene));
+    Need { parts: [body, cpu::memory::engine(scene, precision)].into_iter().chain(search).collect() }
+}
+
+/// Meshes a scene for an engine, unless the two cannot fit in memory. Where a GPU may run it, the body alone has to.
+///
+/// # Errors
+/// [`Error::Memory`], before anything is made; as [`Model::new`].
+pub fn model(args: &EngineArgs, scene: &Scene) -> Result<Model> {
+    let candidates = candidates(args.engine, args.precision)?;
+    let engine = if candidates.gpu.is_none() { candidates.cpu } else { None };
+    memory::ensure(scene, |scene| need(scene, engine))?;
+    Model::new(scene)
 }
 
 /// An engine at rest, ready to run.

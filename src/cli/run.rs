@@ -84,7 +84,7 @@ pub fn simulate(
     out: &Path,
     display: impl FnOnce(usize, &EngineInfo, &str) -> Display,
 ) -> Result<Done> {
-    let model = Model::new(scene)?;
+    let model = choose::model(engine, scene)?;
     let chosen = choose::choose(engine, &model, scene)?;
     simulate_with(chosen, (scene, text, &model), out, display)
 }

@@ -88,6 +88,7 @@
 mod course;
 mod energies;
 mod engine;
+pub mod memory;
 mod plan;
 mod program;
 mod rim;
@@ -119,7 +120,7 @@ fn precision_of<T: Real>() -> Precision {
 /// instantiate every kernel.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for a precision that is not in [`PRECISIONS`].
+/// [`Error::Unsupported`] for a precision that is not in [`PRECISIONS`]; [`Error::Memory`] if it does not fit.
 pub fn engine(model: &Model, scene: &Scene, precision: Precision, threads: usize) -> Result<Box<dyn Engine>> {
     engine_at(model, scene, precision, threads, Level::detect())
 }
@@ -135,6 +136,7 @@ pub fn engine_at(
     threads: usize,
     level: Level,
 ) -> Result<Box<dyn Engine>> {
+    crate::memory::ensure(scene, |scene| memory::engine(scene, precision).into())?;
     match precision {
         Precision::F64 => Ok(Box::new(CpuEngine::<f64>::with_level(model, scene, threads, level))),
         Precision::F32 => Ok(Box::new(CpuEngine::<f32>::with_level(model, scene, threads, level))),

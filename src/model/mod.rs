@@ -5,6 +5,7 @@ pub mod chains;
 mod classes;
 mod forces;
 pub mod frame;
+pub mod memory;
 pub mod mesh;
 pub mod shuffle;
 
@@ -38,9 +39,10 @@ impl Model {
     /// Meshes a scene.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a node set that the mesh does not have, a rim that leaves nothing to deform, an inside-out
-    /// element.
+    /// [`Error::Memory`] if the body does not fit, before any of it is made; [`Error::Scene`] for a node set that the mesh does
+    /// not have, a rim that leaves nothing to deform, an inside-out element.
     pub fn new(scene: &Scene) -> Result<Model> {
+        crate::memory::ensure(scene, |scene| memory::body(scene).into())?;
         let mesh = meshed(scene)?;
         Model::from_mesh(mesh, &scene.body).map_err(|element| Error::Scene {
             file: scene.file.display().to_string(),

@@ -16,9 +16,30 @@ pub struct Top {
     pub iterations: usize,
 }
 
+/// Vectors of the basis that are kept, of `length` numbers each: all of a small body, whose vectors take no memory to speak
+/// of, else a few. What is not kept is computed again once, for the Ritz vector.
+pub fn kept(length: usize) -> usize {
+    const SMALL: usize = 4 << 20; // bytes
+    const LEAST: usize = 16;
+    (SMALL / (size_of::<f64>() * length.max(1))).max(LEAST)
+}
+
 /// Largest eigenvalue of `apply`, symmetric in the inner product weighted by `weight`, from `start`, until the
 /// residual is below `tolerance` of the value or `most` iterations are done.
 pub fn largest(
+    apply: impl FnMut(&[f64]) -> Result<Vec<f64>>,
+    weight: &[f64],
+    start: &[f64],
+    tolerance: f64,
+    most: usize,
+) -> Result<Top> {
+    largest_keeping(kept(start.len()), apply, weight, start, tolerance, most)
+}
+
+/// The same with the first `kept` vectors of the basis (two or more) and the last two in memory. The bits do not depend on it, as
+/// long as `apply` gives the same ones again.
+fn largest_keeping(
+    kept: usize,
     mut apply: impl FnMut(&[f64]) -> Result<Vec<f64>>,
     weight: &[f64],
     start: &[f64],
@@ -49,18 +70,52 @@ pub fn largest(
         let (value, coefficients) = top_of_tridiagonal(&alphas, &betas);
         let residual = beta * coefficients.last().expect("as many as alphas").abs();
         if residual <= tolerance * value || alphas.len() >= most || beta <= 1e-14 * value.abs() {
-            let mut vector = vec![0.0; weight.len()];
-            for (c, q) in coefficients.iter().zip(&basis) {
-                for (v, q) in vector.iter_mut().zip(q) {
-                    *v += c * q;
-                }
-            }
+            drop(r);
+            let vector = combined(basis, kept, &coefficients, &alphas, &betas, apply)?;
             let iterations = alphas.len();
             return Ok(Top { value, upper: value + residual, vector: unit(&vector), iterations });
         }
         betas.push(beta);
-        basis.push(r.iter().map(|r| r / beta).collect());
+        r.iter_mut().for_each(|r| *r /= beta);
+        if basis.len() >= kept + 2 {
+            basis.remove(kept);
+        }
+        basis.push(r);
     }
+}
+
+/// The sum of `coefficients` times the vectors of the basis, of which the first `kept` are there, and the last two; those between
+/// are made again, by the recurrence that made them.
+fn combined(
+    mut basis: Vec<Vec<f64>>,
+    kept: usize,
+    coefficients: &[f64],
+    alphas: &[f64],
+    betas: &[f64],
+    mut apply: impl FnMut(&[f64]) -> Result<Vec<f64>>,
+) -> Result<Vec<f64>> {
+    let mut vector = vec![0.0; basis[0].len()];
+    let mut add = |c: f64, q: &[f64]| vector.iter_mut().zip(q).for_each(|(v, q)| *v += c * q);
+    if coefficients.len() > basis.len() {
+        basis.truncate(kept);
+    }
+    for (c, q) in coefficients.iter().zip(&basis) {
+        add(*c, q);
+    }
+    for k in basis.len()..coefficients.len() {
+        let [before, q] = basis.last_chunk::<2>().expect("two vectors are kept");
+        let mut next = apply(q)?;
+        for ((r, q), b) in next.iter_mut().zip(q).zip(before) {
+            *r -= alphas[k - 1] * q;
+            *r -= betas[k - 2] * b;
+            *r /= betas[k - 1];
+        }
+        add(coefficients[k], &next);
+        // Those that have been added are not needed but for the recurrence.
+        basis.drain(..basis.len() - 1);
+        basis.push(next);
+    }
+    Ok(vector)
 }
 
 /// Largest eigenvalue of a symmetric tridiagonal matrix, by bisection on its Sturm count, and its unit eigenvector,
@@ -127,5 +182,12 @@ mod tests {
         let exact = 2.0 - 2.0 * (n as f64 * std::f64::consts::PI / (n as f64 + 1.0)).cos();
         assert!((top.value - exact).abs() < 1e-9, "{} {exact}", top.value);
         assert!(top.upper >= exact - 1e-12);
+        // What is not kept comes again to the bit.
+        for kept in [2, 5, 57, 58, 59] {
+            let again = largest_keeping(kept, chain, &vec![1.0; n], &start, 1e-10, 60).unwrap();
+            assert_eq!((again.value, again.vector), (top.value, top.vector.clone()), "{kept} kept");
+            assert_eq!(again.iterations, top.iterations);
+        }
+        assert!(top.iterations > 50);
     }
 }

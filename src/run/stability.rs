@@ -7,7 +7,9 @@
 use super::lanczos::{self, Top};
 use crate::engine::Engine;
 use crate::error::Result;
+use crate::memory::{Counts, Part};
 use crate::model::Model;
+use crate::scene::Scene;
 
 /// Residual of the eigenvalue, relative: the step is known to half of it.
 const TOLERANCE: f64 = 1e-3;
@@ -80,6 +82,15 @@ fn corrected(dt: f64, top: &Top, stiffness: f64) -> f64 {
     let c = ((top.value - stiffness * dt * dt / 4.0) / (dt / 2.0)).max(0.0) * margin;
     // Written so that nothing cancels: dt = 4 / (c + sqrt(c^2 + 4 k)).
     4.0 / (c + (c * c + 4.0 * k).sqrt())
+}
+
+/// Bytes that the search holds: the basis of the iteration, and beside it vectors in f64: masses, start, mode before and mode found,
+/// positions and velocities of one side of the difference, forces of both.
+pub fn search(scene: &Scene) -> Part {
+    let nodes = Counts::of(scene).nodes;
+    let vector = size_of::<[f64; 3]>() as u64 * nodes;
+    let basis = (lanczos::kept(3 * nodes as usize) as u64 + 2).min(MOST as u64);
+    Part { name: "search for the critical step", bytes: (basis + 8) * vector }
 }
 
 /// Critical step of the engine's current positions. `guess`: a step of the right size, `before`: the last result.

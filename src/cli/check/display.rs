@@ -2,6 +2,7 @@
 
 use std::fmt::{Display, Formatter, Result};
 
+use super::memory::CpuMemory;
 use super::programs::{GpuPlan, Program};
 use super::{Body, Check, StagePlan};
 use crate::format::{bytes, count, duration, plural, si, updates};
@@ -22,6 +23,7 @@ impl Display for Check {
         self.time(f)?;
         writeln!(f, "\noutputs")?;
         self.outputs.iter().try_for_each(|line| writeln!(f, "  {line}"))?;
+        write!(f, "\n{}", self.cpu)?;
         write!(f, "\n{}", self.gpu)?;
         if !self.warnings.is_empty() {
             writeln!(f)?;
@@ -103,6 +105,21 @@ impl Display for StagePlan {
             writeln!(f, "  {:<14} {start}", "")?;
         }
         self.rim.iter().try_for_each(|motion| writeln!(f, "  {:<14} rim: {motion}", ""))
+    }
+}
+
+impl Display for CpuMemory {
+    fn fmt(&self, f: &mut Formatter) -> Result {
+        writeln!(f, "CPU memory of a run, estimated from the element counts")?;
+        for run in &self.runs {
+            let parts: Vec<String> =
+                run.parts.iter().map(|p| format!("{} {}", p.name, bytes(p.bytes))).collect();
+            writeln!(f, "  {:<14} {:>10}  {}", run.precision, bytes(run.bytes), parts.join(", "))?;
+        }
+        if let (Some(there), Some(limit)) = (self.there, self.limit) {
+            writeln!(f, "  {:<14} {:>10}  {limit}", "to be had", bytes(there))?;
+        }
+        Ok(())
     }
 }
 

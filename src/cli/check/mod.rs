@@ -2,6 +2,7 @@
 
 mod body;
 mod display;
+mod memory;
 mod programs;
 mod stages;
 
@@ -20,6 +21,7 @@ use hexroll::gpu::adapters;
 use hexroll::model::Model;
 use hexroll::scene::Scene;
 use hexroll::{Precision, Result, cpu};
+use memory::CpuMemory;
 use programs::GpuPlan;
 use stages::StagePlan;
 
@@ -59,6 +61,7 @@ struct Check {
     steps: Steps,
     /// Time estimates, one an engine that was timed.
     estimates: Vec<Estimate>,
+    cpu: CpuMemory,
     gpu: GpuPlan,
     outputs: Vec<String>,
     warnings: Vec<String>,
@@ -84,6 +87,8 @@ struct Estimate {
 
 pub fn execute(args: &CheckArgs) -> Result<()> {
     let (scene, _) = args.scene.load()?;
+    // Of what is timed below, the most.
+    hexroll::memory::ensure(&scene, |scene| choose::need(scene, Some(Precision::F64)))?;
     let model = Model::new(&scene)?;
     let steps = Steps::of(&scene, &model)?;
     let (estimates, notes) = estimates(&scene, &model, &steps);
@@ -95,6 +100,7 @@ pub fn execute(args: &CheckArgs) -> Result<()> {
         body: Body::of(&scene, &model),
         pieces: stages::pieces(&scene, &model.mesh.sets),
         stages: stages::plans(&scene, &steps),
+        cpu: CpuMemory::of(&scene),
         gpu: GpuPlan::of(&scene, &model)?,
         steps,
         estimates,

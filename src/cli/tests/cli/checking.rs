@@ -39,6 +39,8 @@ fn the_check_says_what_is_modelled_and_runs_nothing() {
         "element_force",
         "bindings",
         "measured now",
+        "CPU memory of a run",
+        "search for the critical step",
         "warning: friction on a purely elastic material chatters",
     ] {
         assert!(text.contains(part), "{part:?} is missing in\n{text}");

@@ -5,6 +5,7 @@ mod checking;
 mod choosing;
 mod comparing;
 mod ending_early;
+mod memory;
 mod mistakes;
 mod program;
 mod reporting;
