@@ -6,11 +6,12 @@ use std::time::Instant;
 use clap::{Args, Subcommand};
 
 use super::terminal;
+use hexroll::gpu::Gpu;
 use hexroll::{Error, Result};
 use hexroll_lab::bench::machine::Machine;
 use hexroll_lab::report::accuracy::{self, Matrix, Measured, Problem};
 use hexroll_lab::report::page::{self, Finding};
-use hexroll_lab::report::{Case, stability, verification};
+use hexroll_lab::report::{Case, parity, stability, verification};
 
 pub const HELP: &str = "\
 Nothing is cached: every number is computed now, on this machine, and the page says on which.
@@ -19,6 +20,7 @@ Examples:
   hexroll report verification
   hexroll report verification --only hertz_line --only hertz_point --out -
   hexroll report verification --everyday
+  hexroll report parity --out -
   hexroll report accuracy --gpu 1               # an hour of one core
   hexroll report accuracy --retime              # its times again, on a machine that does nothing else: a minute";
 
@@ -34,6 +36,8 @@ enum Kind {
     Verification(CasesArgs),
     /// Speed against error for every engine, formulation, mesh and step: docs/accuracy.md
     Accuracy(AccuracyArgs),
+    /// The GPU engine against the CPU's f64, and its bits from run to run, on the first adapter that can be used
+    Parity(CasesArgs),
     /// Hard cases and the largest safety factor each survives: docs/stability.md
     Stability(CasesArgs),
 }
@@ -93,6 +97,14 @@ pub fn execute(args: &ReportArgs) -> Result<()> {
             cases(args, verification::CASES, "Verification", intro, "verification")
         }
         Kind::Accuracy(args) => accuracy(args),
+        Kind::Parity(args) => {
+            let gpu = Gpu::open(None)?.report;
+            let kind = if gpu.software { "software: a processor's arithmetic" } else { "a GPU" };
+            let intro = format!("Adapter: {} ({kind}), driver {}.", gpu.name, gpu.driver);
+            // Of this adapter: no page of the documentation.
+            let out = args.out.clone().or(Some("-".into()));
+            cases(&CasesArgs { out, ..args.clone() }, parity::CASES, "Parity", &intro, "parity")
+        }
         Kind::Stability(args) => hard_cases(args),
     }
 }

@@ -25,6 +25,7 @@ mod timing;
 
 use hexroll::Error;
 use hexroll::gpu::Gpu;
+use hexroll_lab::report::{Case, parity};
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::sync::Arc;
 
@@ -69,6 +70,16 @@ const DOUBLES: [(&str, Check); 6] = [
     ("friction_laws_in_doubles_are_the_cpus", laws::doubles),
 ];
 
+/// A page of `hexroll report parity`, which stands for this suite where there is nothing but the program.
+fn page(case: &Case) -> Result<(), Failed> {
+    let claims = (case.run)()?;
+    let broken: Vec<String> = claims.iter().filter(|c| !c.holds()).map(|c| c.cells().join(" | ")).collect();
+    match claims.is_empty() || !broken.is_empty() {
+        true => Err(format!("{}:\n{}", case.title, broken.join("\n")).into()),
+        false => Ok(()),
+    }
+}
+
 fn main() {
     let mut arguments = Arguments::from_args();
     // The device and the processor are shared by all trials: one after the other is fastest.
@@ -90,6 +101,8 @@ fn main() {
         Trial::test(*name, run).with_ignored_flag(ignored)
     };
     let everywhere = CHECKS.iter().map(|check| trial(missing, check));
-    let trials = everywhere.chain(DOUBLES.iter().map(|check| trial(single, check))).collect();
+    let doubles = DOUBLES.iter().map(|check| trial(single, check));
+    let page = |case: &'static Case| Trial::test(case.theorem, || page(case)).with_ignored_flag(missing);
+    let trials = everywhere.chain(doubles).chain(parity::CASES.iter().map(page)).collect();
     libtest_mimic::run(&arguments, trials).exit();
 }

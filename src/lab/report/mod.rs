@@ -4,6 +4,7 @@
 pub mod accuracy;
 pub mod claim;
 pub mod page;
+pub mod parity;
 pub mod stability;
 pub mod verification;
 
