@@ -65,7 +65,6 @@ whole() {
         [[ -n $after ]] && after=${after:1} || before+=0
         exponent=$((exponent - 1))
     done
-    # The last digit taken from a number without more of them was added twice over.
     while [[ $exponent -lt 0 ]]; do
         before=0$before
         before=${before:0:${#before}-1}

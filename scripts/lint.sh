@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 
 has_cargo() { cargo "$1" --version >/dev/null 2>&1 || { echo "lint: cargo $1 is not installed, left out" >&2; false; }; }
 
-for script in scripts/*.sh .ci/run; do
+for script in scripts/*.sh benches/*.sh benches/peers/*.sh .ci/run; do
     bash -n "$script"
 done
 if has_cargo fmt; then cargo fmt --all --check; fi
