@@ -17,6 +17,9 @@ pub fn body(scene: &Scene) -> Part {
     let nodes = of(counts.nodes, size_of::<[f64; 3]>() + size_of::<f64>() + size_of::<u32>() + held);
     // Facets in an array that grew by doubling, and what the surface was sorted in.
     let facets = of(counts.facets.next_power_of_two() + counts.facets, size_of::<[u32; 4]>());
-    let bytes = elements + nodes + facets + of(counts.shapes, size_of::<Class<f64>>());
+    // Shapes are met one after the other: when their array last doubles, the half of it is held beside the whole.
+    let room = counts.shapes.next_power_of_two();
+    let shapes = of(room + room / 2, size_of::<Class<f64>>());
+    let bytes = elements + nodes + facets + shapes;
     Part { name: "body", bytes }
 }
