@@ -8,6 +8,7 @@ use crate::rig::{self, Who, noise, note, relative, scene};
 use hexroll::gpu::Gpu;
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
+use hexroll::physics::material::Yeoh;
 use hexroll::physics::parameters::Parameter;
 use hexroll::scene::{Body, Element, Law, MeshSpec, Scene};
 use hexroll_lab::rig::{ELEMENTS, G, by_the_book, laws_of};
@@ -17,9 +18,14 @@ use hexroll_lab::rig::{ELEMENTS, G, by_the_book, laws_of};
 /// and with pairs no less: they save the positions, not the arithmetic.
 const TOLERANCE: f64 = 5e-6;
 
-/// One of each law, with a bulk modulus that does not drown the rest in rounding.
+/// One of each law, with a bulk modulus that does not drown the rest in rounding, and constants of Yeoh's law that show
+/// beside a viscosity.
 fn laws() -> Vec<Law> {
-    laws_of(G, 10e6).collect()
+    let strong = |law| match law {
+        Law::Yeoh(yeoh) => Yeoh { c20: 2.0 * G, c30: 30.0 * G, ..yeoh }.into(),
+        other => other,
+    };
+    laws_of(G, 10e6).map(strong).collect()
 }
 
 struct Case {
@@ -113,7 +119,7 @@ fn check(gpu: &Gpu, case: &Case, who: Who, body: &Body, tolerance: f64) {
     }
     for (constant, mutant) in mutants(body) {
         let error = relative(&got, &case.forces(gpu, Who::Cpu64, &mutant));
-        assert!(error > 4.0 * tolerance, "{name}: {constant} off and an error of only {error:.2e}");
+        assert!(error > 5.0 * tolerance, "{name}: {constant} off and an error of only {error:.2e}");
     }
 }
 
@@ -190,12 +196,11 @@ fn numberings(gpu: &Gpu, kinds: &[&str]) {
                 let [exact, plain, plus] =
                     [Who::Cpu64, Who::Gpu, Who::Plus].map(|who| case.forces(gpu, who, &body));
                 // Plain: a coordinate of 0.4 m is rounded to 1.5e-8 m, of an edge of 10 mm whose strains are 0.1: 1.5e-5.
-                // With pairs: 6e-8 of J times 25 shear moduli, of stresses of a tenth of one: 1.5e-5 where few add up.
                 let errors = [relative(&plain, &exact), relative(&plus, &exact)];
                 let name =
                     format!("{spec:?}, distorted {distorted}, {kind}: {:.1e}, {:.1e}", errors[0], errors[1]);
                 note(|| name.clone());
-                assert!(errors[0] < 5e-5 && errors[1] < 2e-5, "{name}");
+                assert!(errors[0] < 5e-5 && errors[1] < TOLERANCE, "{name}");
             }
         }
     }

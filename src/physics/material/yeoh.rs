@@ -45,7 +45,7 @@ impl Hyperelastic for Yeoh {
 
     /// C20 and C30 so large that strains of a tenth feel them.
     fn example(shear: f64, bulk: f64) -> Self {
-        Yeoh { c10: 0.5 * shear, c20: shear, c30: 20.0 * shear, bulk_modulus: bulk }
+        Yeoh { c10: 0.5 * shear, c20: shear, c30: 10.0 * shear, bulk_modulus: bulk }
     }
 
     /// With C10 alone it is neo-Hookean, whose code is cheaper.
