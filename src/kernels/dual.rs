@@ -88,9 +88,6 @@ impl<N: Lanes<Real = f64>> SubAssign for Dual<N> {
 }
 
 impl<N: Lanes<Real = f64>> Scalar for Dual<N> {
-    // Twenty-four numbers a corner are too many for registers anyway.
-    const UNROLLED: bool = false;
-
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Dual::constant(value)

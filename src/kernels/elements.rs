@@ -1,7 +1,7 @@
 //! The element pass, several elements at a time: corners are fetched, the formulation gives their forces, and these go onto
 //! the node lines. One kernel for every formulation, law, viscosity and level of instructions.
 
-use super::fetch::{Copied, corners, give_back, in_precision, take_copy};
+use super::fetch::{Copied, copy_of_thread, corners};
 use super::layout::Item;
 use super::scatter::{add_batch, add_loose};
 use super::shared::Shared;
@@ -103,33 +103,33 @@ impl<T: Real, F: Formulation, L: Hyperelastic, V: Viscosity> InLanes<T> for Pass
     fn run<N: Lanes<Real = T>>(self) -> Failed {
         let Pass { law, viscosity, elements, shared, .. } = self;
         let item = &elements.items[self.item];
-        let mut held = take_copy();
-        let copy: &mut Copied<T> = in_precision(&mut held);
+        let places = &shared.places();
+        // SAFETY: nobody else has this thread's copy: a pass ends before the next begins.
+        let copy: &mut Copied<T> = unsafe { &mut *copy_of_thread() };
         if let Item::Loose(loose) = item {
             // SAFETY: the promise of `ElementPass::forces`.
-            unsafe { copy.read(loose, shared, N::WIDTH, V::ON) };
+            unsafe { copy.read(loose, places, N::WIDTH, V::ON) };
         }
         let mut carry = [[N::zero(); 3]; 4];
         let mut report = Report { failed: Failed(None), power: N::zero() };
         for (b, &shape) in item.shapes().iter().enumerate() {
             let shape = shape_at::<N, F>(elements, shape);
             // SAFETY: the promise of `ElementPass::forces`; an item has an entry of the table of shapes for every batch.
-            let at = unsafe { corners::<N>(item, b, shared, copy, V::ON) };
+            let at = unsafe { corners::<N>(item, b, places, copy, V::ON) };
             let force = F::force(&law, &viscosity, &shape, &at.x, &at.v);
             // SAFETY: as above, and batches come in order.
-            unsafe { add_batch(item, b, shared, copy, &mut carry, &force.f) };
+            unsafe { add_batch(item, b, places, copy, &mut carry, &force.f) };
             report.note::<V>(item.elements(), b * N::WIDTH, force.viscous_power, force.min_j);
         }
         // SAFETY: as above; the sums are the item's, one a lane.
         unsafe {
             if let Item::Loose(loose) = item {
-                add_loose(loose, shared, copy, N::WIDTH);
+                add_loose(loose, places, copy, N::WIDTH);
             }
             if V::ON {
                 (report.power * N::from_f64(self.weight)).add_to(shared.power(self.item));
             }
         }
-        give_back(held);
         report.failed
     }
 }
@@ -161,10 +161,9 @@ impl<N: Lanes> Report<N> {
 #[inline(always)]
 fn shape_at<N: Lanes, F: Formulation>(elements: &Elements<N::Real>, entry: u32) -> LaneShapes<'_, N::Real> {
     let length = F::NUMBERS.len() * N::WIDTH;
-    LaneShapes {
-        numbers: &elements.shapes.slice()[entry as usize * length..][..length],
-        first: F::NUMBERS.start,
-    }
+    let numbers = &elements.shapes.slice()[entry as usize * length..][..length];
+    // SAFETY: a vector for every number that the formulation says it reads.
+    unsafe { LaneShapes::new(numbers, F::NUMBERS.start) }
 }
 
 /// The lowest of `elements` that failed.

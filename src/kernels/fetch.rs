@@ -4,12 +4,12 @@
 
 use super::layout::{Item, Loose};
 use super::rows::{Batch, Row, Rows};
-use super::shared::Shared;
+use super::shared::Places;
 use crate::physics::element::Corners;
 use crate::physics::element::hex8::{BACK, FRONT};
 use crate::physics::lanes::{Lanes, WIDEST};
 use crate::physics::scalar::Real;
-use std::cell::Cell;
+use std::cell::UnsafeCell;
 
 /// Vectors of a field, component by component: vector c holds corner c of every lane.
 pub type Vectors<T> = [[T; 8 * WIDEST]; 3];
@@ -22,53 +22,38 @@ pub struct Copied<T> {
     pub f: Vectors<T>,
 }
 
-impl Default for Copied<f64> {
-    fn default() -> Self {
-        let zero = [[0.0; 8 * WIDEST]; 3];
-        Copied { x: zero, v: zero, f: zero }
-    }
-}
+const NOTHING: [[f64; 8 * WIDEST]; 3] = [[0.0; 8 * WIDEST]; 3];
 
 thread_local! {
     /// What a thread copies to. On the stack it would lie between the values of the force routine, which cost one build
-    /// half of its speed.
-    static COPY: Cell<Option<Box<Copied<f64>>>> = const { Cell::new(None) };
+    /// half of its speed. Nothing is dropped at its end: a pass that held something to drop would have a way out at every call.
+    static COPY: UnsafeCell<Copied<f64>> =
+        const { UnsafeCell::new(Copied { x: NOTHING, v: NOTHING, f: NOTHING }) };
 }
 
-/// This thread's copy; to be given back.
+/// This thread's copy, for numbers that need no more memory than f64. It lives as long as the thread.
 #[inline(always)]
-pub fn take_copy() -> Box<Copied<f64>> {
-    COPY.take().unwrap_or_default()
-}
-
-#[inline(always)]
-pub fn give_back(copy: Box<Copied<f64>>) {
-    COPY.set(Some(copy));
-}
-
-/// The same memory for numbers that need no more of it.
-#[inline(always)]
-pub fn in_precision<T: Real>(copy: &mut Copied<f64>) -> &mut Copied<T> {
+pub fn copy_of_thread<T: Real>() -> *mut Copied<T> {
+    // Large enough and aligned, and any bits are numbers (`Real` is plain data).
     const { assert!(size_of::<Copied<T>>() <= size_of::<Copied<f64>>() && align_of::<T>() <= align_of::<f64>()) };
-    // SAFETY: it is large enough and aligned, and any bits are numbers (`Real` is plain data).
-    unsafe { &mut *std::ptr::from_mut(copy).cast() }
+    COPY.with(UnsafeCell::get).cast()
 }
 
 impl<T: Real> Copied<T> {
     /// Corners of loose elements; with their velocities, if asked.
     ///
     /// # Safety
-    /// An item of the early phase of [`Shared`]'s contract.
+    /// An item of the early phase of [`Shared`](super::shared::Shared)'s contract.
     #[inline(always)]
-    pub unsafe fn read(&mut self, loose: &Loose, shared: &Shared<T>, width: usize, velocities: bool) {
+    pub unsafe fn read(&mut self, loose: &Loose, places: &Places<T>, width: usize, velocities: bool) {
         for (c, nodes) in loose.nodes.iter().enumerate() {
             for (lane, &n) in nodes[..width].iter().enumerate() {
                 for d in 0..3 {
                     // SAFETY: the nodes of an item do not move before it has been read.
                     unsafe {
-                        self.x[d][c * width + lane] = *shared.x[d].add(n as usize);
+                        self.x[d][c * width + lane] = *places.x[d].add(n as usize);
                         if velocities {
-                            self.v[d][c * width + lane] = *shared.v[d].add(n as usize);
+                            self.v[d][c * width + lane] = *places.v[d].add(n as usize);
                         }
                     }
                 }
@@ -88,63 +73,69 @@ pub struct Fetched<N> {
 /// at once, twice as many as there are registers.
 ///
 /// # Safety
-/// An item of the early phase of [`Shared`]'s contract, which `copy` holds if it is loose; one of its batches.
+/// An item of the early phase of [`Shared`](super::shared::Shared)'s contract, which `copy` holds if it is loose; one of its batches.
 #[inline(always)]
 pub unsafe fn corners<N: Lanes>(
     item: &Item,
     b: usize,
-    shared: &Shared<N::Real>,
+    places: &Places<N::Real>,
     copy: &mut Copied<N::Real>,
     velocities: bool,
 ) -> Fetched<N> {
-    let starts = |field: &Vectors<N::Real>| field.each_ref().map(|c| c.as_ptr());
-    let (places, x, v) = match item {
+    let starts = |field: &Vectors<N::Real>| [field[0].as_ptr(), field[1].as_ptr(), field[2].as_ptr()];
+    let read =
+        |field: &[*mut N::Real; 3]| [field[0].cast_const(), field[1].cast_const(), field[2].cast_const()];
+    let (at, x, v) = match item {
         // SAFETY: a batch of these rows, whose nodes do not move before they have been read.
         Item::Rows(rows) => unsafe {
             let batch = rows.batches.get_unchecked(b);
             if batch.next() > 0 {
-                copy_across::<N>(rows, batch, &shared.x, &mut copy.x);
+                copy_across::<N>(rows, batch, &places.x, &mut copy.x);
                 if velocities {
-                    copy_across::<N>(rows, batch, &shared.v, &mut copy.v);
+                    copy_across::<N>(rows, batch, &places.v, &mut copy.v);
                 }
-                (Places::copied(N::WIDTH), starts(&copy.x), starts(&copy.v))
+                (CornersAt::copied(N::WIDTH), starts(&copy.x), starts(&copy.v))
             } else {
-                let places = Places::on_row(rows.row_of(batch), batch);
-                (places, shared.x.map(|x| x.cast_const()), shared.v.map(|v| v.cast_const()))
+                let at = CornersAt::on_row(rows.row_of(batch), batch);
+                (at, read(&places.x), read(&places.v))
             }
         },
-        Item::Loose(_) => (Places::copied(N::WIDTH), starts(&copy.x), starts(&copy.v)),
+        Item::Loose(_) => (CornersAt::copied(N::WIDTH), starts(&copy.x), starts(&copy.v)),
     };
     // SAFETY: places of a batch on its lines, or in the copy.
     unsafe {
-        let v = if velocities { places.load::<N>(&v) } else { [[N::zero(); 3]; 8] };
-        Fetched { x: places.load::<N>(&x), v }
+        let v = if velocities { at.load::<N>(&v) } else { [[N::zero(); 3]; 8] };
+        Fetched { x: at.load::<N>(&x), v }
     }
 }
 
 /// Where the corners of a batch lie: a vector a corner and direction, `at[corner]` numbers from the start of the
 /// direction's array.
 #[derive(Clone, Copy)]
-struct Places {
+struct CornersAt {
     at: [usize; 8],
 }
 
-impl Places {
+impl CornersAt {
     /// On the lines of a row.
     #[inline(always)]
-    fn on_row(row: &Row, batch: &Batch) -> Places {
+    fn on_row(row: &Row, batch: &Batch) -> CornersAt {
         let mut at = [0; 8];
         for k in 0..4 {
             at[BACK[k]] = row.x[k] + batch.at();
             at[FRONT[k]] = row.x[k] + batch.at() + 1;
         }
-        Places { at }
+        CornersAt { at }
     }
 
     /// In a copy.
     #[inline(always)]
-    fn copied(width: usize) -> Places {
-        Places { at: std::array::from_fn(|c| c * width) }
+    fn copied(width: usize) -> CornersAt {
+        let mut at = [0; 8];
+        for c in 0..8 {
+            at[c] = c * width;
+        }
+        CornersAt { at }
     }
 
     /// # Safety
@@ -166,7 +157,7 @@ impl Places {
 /// element, of the next row's. Few batches do.
 ///
 /// # Safety
-/// A batch of these rows with lanes on the next one, in an item of the early phase of [`Shared`]'s contract.
+/// A batch of these rows with lanes on the next one, in an item of the early phase of [`Shared`](super::shared::Shared)'s contract.
 #[inline(always)]
 unsafe fn copy_across<N: Lanes>(
     rows: &Rows,

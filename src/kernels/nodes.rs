@@ -4,7 +4,7 @@
 use super::books::{LaneConditions, LaneSums, Moved, book, choose3, fold, splat3};
 use super::conditions::Conditions;
 use super::layout::{Line, Nodes};
-use super::shared::Shared;
+use super::shared::{Places, Shared};
 use super::sums::LineContact;
 use super::touch::{LineStep, touch};
 use crate::physics::lanes::{InLanes, Instructions, Lanes};
@@ -96,16 +96,18 @@ unsafe fn plain_line<N: Lanes>(step: &LineStep<N::Real>) {
     let line = unsafe { step.line() };
     let lanes = LaneConditions::<N>::new(c);
     let road = c.road.as_ref().filter(|_| line.surface.is_some());
+    let (places, inverse_mass) = (&shared.places(), nodes.inverse_mass.slice().as_ptr());
+    let (forces, start) = (SlotsOf::new(line), line.start);
     let mut internal = N::zero();
     let mut contact = LineContact::default();
     for (b, batch) in line.batches.iter().enumerate() {
-        let (offset, at) = (b * N::WIDTH, line.start + b * N::WIDTH);
+        let (offset, at) = (b * N::WIDTH, start + b * N::WIDTH);
         // SAFETY: nodes and slots of a line are whoever's who steps it, and arrays by place have whole vectors.
         unsafe {
-            let f_int = internal_force::<N>(line, shared, offset);
-            let x = load3::<N>(&shared.x, at);
-            let v = load3::<N>(&shared.v, at);
-            let w = N::load(nodes.inverse_mass.slice().as_ptr(), at);
+            let f_int = forces.internal_force::<N>(places, offset);
+            let x = load3::<N>(&places.x, at);
+            let v = load3::<N>(&places.v, at);
+            let w = N::load(inverse_mass, at);
             let v_star = lanes.prediction.velocity(w, f_int, v);
             let mut moved = Moved { x: axpy(v_star, lanes.dt, x), v: v_star };
             if let (true, Some(road)) = (batch.surface != 0, road) {
@@ -113,8 +115,8 @@ unsafe fn plain_line<N: Lanes>(step: &LineStep<N::Real>) {
                 moved = touch::<N, false>(step, road, (at, batch), x, v, moved, sums, &mut contact);
             }
             internal -= dot(f_int, axpy(moved.v, lanes.weights[1], scale(v, lanes.weights[0])));
-            store3(moved.x, &shared.x, at);
-            store3(moved.v, &shared.v, at);
+            store3(moved.x, &places.x, at);
+            store3(moved.v, &places.v, at);
         }
     }
     // SAFETY: as above, and so are its sums.
@@ -156,23 +158,24 @@ unsafe fn line_in<N: Lanes, const PROBE: bool>(step: &LineStep<N::Real>) {
     // SAFETY: the caller's promise.
     let line = unsafe { step.line() };
     let lanes = LaneConditions::<N>::new(c);
+    let (places, forces, start) = (&shared.places(), SlotsOf::new(line), line.start);
+    let masses = (nodes.mass.slice().as_ptr(), nodes.inverse_mass.slice().as_ptr());
     let mut sums = LaneSums::zero();
     let mut contact = LineContact::default();
     for (b, batch) in line.batches.iter().enumerate() {
-        let (offset, at) = (b * N::WIDTH, line.start + b * N::WIDTH);
+        let (offset, at) = (b * N::WIDTH, start + b * N::WIDTH);
         // SAFETY: nodes and slots of a line are whoever's who steps it, and arrays by place have whole vectors.
         unsafe {
-            let whole = internal_force::<N>(line, shared, offset);
+            let whole = forces.internal_force::<N>(places, offset);
             let f_int = moving::<N>(batch.held, whole);
             if PROBE && batch.held != [0; 3] {
                 // What holds a node pushes back, as a road does: it belongs to the scale of forces.
                 let held = dot(whole, whole) - dot(f_int, f_int);
                 sums.internal_force2 += N::zero().choose(held, batch.rim);
             }
-            let x = load3::<N>(&shared.x, at);
-            let v = load3::<N>(&shared.v, at);
-            let mass = N::load(nodes.mass.slice().as_ptr(), at);
-            let w = N::load(nodes.inverse_mass.slice().as_ptr(), at);
+            let x = load3::<N>(&places.x, at);
+            let v = load3::<N>(&places.v, at);
+            let (mass, w) = (N::load(masses.0, at), N::load(masses.1, at));
             let v_star = lanes.prediction.velocity(w, f_int, v);
             let mut moved = Moved { x: axpy(v_star, lanes.dt, x), v: v_star };
             if let (true, Some(road)) = (batch.surface != 0, &c.road) {
@@ -186,8 +189,8 @@ unsafe fn line_in<N: Lanes, const PROBE: bool>(step: &LineStep<N::Real>) {
             }
             book::<N, PROBE>(&mut sums, c, &lanes, batch.rim, mass, f_int, x, v, &moved);
             if !PROBE {
-                store3(moved.x, &shared.x, at);
-                store3(moved.v, &shared.v, at);
+                store3(moved.x, &places.x, at);
+                store3(moved.v, &places.v, at);
             }
         }
     }
@@ -203,24 +206,39 @@ unsafe fn line_in<N: Lanes, const PROBE: bool>(step: &LineStep<N::Real>) {
     }
 }
 
-/// Internal force of a batch: its slots, first to last. Slots that are added to lane by lane are cleared.
-///
-/// # Safety
-/// A line of the early or the late phase of [`Shared`]'s contract; `offset`: one of its batches.
-#[inline(always)]
-unsafe fn internal_force<N: Lanes>(line: &Line, shared: &Shared<N::Real>, offset: usize) -> Vec3<N> {
-    let mut f = [N::zero(); 3];
-    for (k, &slot) in line.slots.iter().enumerate() {
-        // SAFETY: its slots are whoever's who steps it.
-        unsafe {
-            let part = load3::<N>(&shared.f, slot + offset);
-            f = if k == 0 { part } else { add(f, part) };
-            if line.loose {
-                store3([N::zero(); 3], &shared.f, slot + offset);
+/// Where a line finds its internal forces.
+#[derive(Clone, Copy)]
+struct SlotsOf<'a> {
+    slots: &'a [usize],
+    /// Whether they are added to lane by lane.
+    loose: bool,
+}
+
+impl<'a> SlotsOf<'a> {
+    #[inline(always)]
+    fn new(line: &'a Line) -> Self {
+        SlotsOf { slots: &line.slots, loose: line.loose }
+    }
+
+    /// Internal force of a batch: its slots, first to last. Slots that are added to lane by lane are cleared.
+    ///
+    /// # Safety
+    /// A line of the early or the late phase of [`Shared`]'s contract; `offset`: one of its batches.
+    #[inline(always)]
+    unsafe fn internal_force<N: Lanes>(self, places: &Places<N::Real>, offset: usize) -> Vec3<N> {
+        let mut f = [N::zero(); 3];
+        for (k, &slot) in self.slots.iter().enumerate() {
+            // SAFETY: its slots are whoever's who steps it.
+            unsafe {
+                let part = load3::<N>(&places.f, slot + offset);
+                f = if k == 0 { part } else { add(f, part) };
+                if self.loose {
+                    store3([N::zero(); 3], &places.f, slot + offset);
+                }
             }
         }
+        f
     }
-    f
 }
 
 /// A force without its held components, which whatever holds them takes; `held`: lanes by component.
@@ -259,9 +277,9 @@ unsafe fn store3<N: Lanes>(v: Vec3<N>, field: &[*mut N::Real; 3], at: usize) {
 /// There is a vector of arms at `boundary`.
 #[inline(always)]
 unsafe fn carried<N: Lanes>(nodes: &Nodes<N::Real>, c: &Conditions<N::Real>, boundary: usize) -> Moved<N> {
-    let arms = [0, 1, 2].map(|d| nodes.rim_arms.component(d).as_ptr());
+    let arms = |d| nodes.rim_arms.component(d).as_ptr();
     // SAFETY: the caller's promise.
-    let arm = unsafe { arms.map(|arm| N::load(arm, boundary)) };
+    let arm = unsafe { [N::load(arms(0), boundary), N::load(arms(1), boundary), N::load(arms(2), boundary)] };
     let r = [splat3::<N>(c.rotation[0]), splat3(c.rotation[1]), splat3(c.rotation[2])];
     let rate = [splat3::<N>(c.rotation_rate[0]), splat3(c.rotation_rate[1]), splat3(c.rotation_rate[2])];
     Moved {

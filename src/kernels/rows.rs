@@ -4,7 +4,7 @@ use crate::physics::element::hex8::{BACK, FRONT};
 use crate::physics::lanes::first;
 
 /// A chain of elements on four node lines.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub struct Row {
     pub count: usize,
     pub closed: bool,

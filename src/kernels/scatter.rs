@@ -6,12 +6,28 @@
 use super::fetch::Copied;
 use super::layout::{Item, Loose};
 use super::rows::{Batch, Row, Rows};
-use super::shared::Shared;
+use super::shared::Places;
 use crate::physics::element::Corners;
 use crate::physics::element::hex8::{BACK, FRONT};
 use crate::physics::lanes::{Lanes, first};
 use crate::physics::scalar::Real;
 use crate::physics::tensor::Vec3;
+
+/// Calls a function for every line of a row and every direction. Not a loop: where one is left standing, forces have addresses
+/// and go through memory.
+macro_rules! each_component {
+    ($of:ident($($argument:expr),*)) => {{
+        each_component!($of, 0, ($($argument),*));
+        each_component!($of, 1, ($($argument),*));
+        each_component!($of, 2, ($($argument),*));
+        each_component!($of, 3, ($($argument),*));
+    }};
+    ($of:ident, $k:literal, ($($argument:expr),*)) => {{
+        $of($k, 0, $($argument),*);
+        $of($k, 1, $($argument),*);
+        $of($k, 2, $($argument),*);
+    }};
+}
 
 /// What the elements in the lanes of the batch before give their front corners, by line of the row.
 pub type Carry<N> = [Vec3<N>; 4];
@@ -19,19 +35,19 @@ pub type Carry<N> = [Vec3<N>; 4];
 /// Adds the forces of batch `b` of an item: to the lines of its rows, or into `copy` if it is loose.
 ///
 /// # Safety
-/// An item of the early phase of [`Shared`]'s contract; its batches come in order, with the `carry` of the one before.
+/// An item of the early phase of [`Shared`](super::shared::Shared)'s contract; its batches come in order, with the `carry` of the one before.
 #[inline(always)]
 pub unsafe fn add_batch<N: Lanes>(
     item: &Item,
     b: usize,
-    shared: &Shared<N::Real>,
+    places: &Places<N::Real>,
     copy: &mut Copied<N::Real>,
     carry: &mut Carry<N>,
     f: &Corners<N>,
 ) {
     match item {
         // SAFETY: one of its batches; the slots of its lines are the item's.
-        Item::Rows(rows) => unsafe { add_to_rows(rows, rows.batches.get_unchecked(b), shared, f, carry) },
+        Item::Rows(rows) => unsafe { add_to_rows(rows, rows.batches.get_unchecked(b), places, f, carry) },
         Item::Loose(_) => {
             for c in 0..8 {
                 for d in 0..3 {
@@ -46,14 +62,14 @@ pub unsafe fn add_batch<N: Lanes>(
 /// Adds the forces of loose elements, which `copy` holds, lane by lane.
 ///
 /// # Safety
-/// An item of the early phase of [`Shared`]'s contract.
+/// An item of the early phase of [`Shared`](super::shared::Shared)'s contract.
 #[inline(always)]
-pub unsafe fn add_loose<T: Real>(loose: &Loose, shared: &Shared<T>, copy: &Copied<T>, width: usize) {
+pub unsafe fn add_loose<T: Real>(loose: &Loose, places: &Places<T>, copy: &Copied<T>, width: usize) {
     for (c, slots) in loose.f.iter().enumerate() {
         for (lane, &slot) in slots[..loose.elements.len()].iter().enumerate() {
             for d in 0..3 {
                 // SAFETY: the slots of its lines are the item's.
-                unsafe { *shared.f[d].add(slot as usize) += copy.f[d][c * width + lane] };
+                unsafe { *places.f[d].add(slot as usize) += copy.f[d][c * width + lane] };
             }
         }
     }
@@ -63,115 +79,121 @@ pub unsafe fn add_loose<T: Real>(loose: &Loose, shared: &Shared<T>, copy: &Copie
 /// give their front corners.
 ///
 /// # Safety
-/// A batch of these rows, in an item of the early phase of [`Shared`]'s contract.
+/// A batch of these rows, in an item of the early phase of [`Shared`](super::shared::Shared)'s contract.
 #[inline(always)]
 unsafe fn add_to_rows<N: Lanes>(
     rows: &Rows,
     batch: &Batch,
-    shared: &Shared<N::Real>,
+    places: &Places<N::Real>,
     f: &Corners<N>,
     carry: &mut Carry<N>,
 ) {
     // SAFETY: the slots of both rows are the item's.
     unsafe {
-        let row = rows.row_of(batch);
-        add_to_row(row, shared, batch, f, carry);
+        // Copies, for the reason that `Places` has.
+        let (row, batch) = (&{ *rows.row_of(batch) }, &{ *batch });
+        each_component!(add_to_row(row, places, batch, f, carry));
         if batch.at() + batch.lanes() < row.count {
             return;
         }
-        end_of_row(row, shared, batch.lanes(), carry);
+        each_component!(end_of_row(row, places, batch.lanes(), carry));
         if batch.next() > 0 {
-            start_of_row(rows.row_after(batch), shared, batch, f);
+            let next = &{ *rows.row_after(batch) };
+            each_component!(start_of_row(next, places, batch, f));
         } else {
             *carry = [[N::zero(); 3]; 4];
         }
     }
 }
 
-/// Adds the forces of the lanes on a row to its lines.
+/// Adds the forces of the lanes on a row to its line `k`, direction `d`.
 ///
 /// # Safety
 /// As [`add_to_rows`].
 #[inline(always)]
 unsafe fn add_to_row<N: Lanes>(
+    k: usize,
+    d: usize,
     row: &Row,
-    shared: &Shared<N::Real>,
+    places: &Places<N::Real>,
     batch: &Batch,
     f: &Corners<N>,
     carry: &mut Carry<N>,
 ) {
     let count = batch.lanes();
-    for k in 0..4 {
-        for d in 0..3 {
-            let to = row.f[k] + batch.at();
-            let (mut back, front) = (f[BACK[k]][d], f[FRONT[k]][d]);
-            if count < N::WIDTH {
-                back = back.choose(N::zero(), first(count));
-            }
-            let mut sum = back + front.moved_up(carry[k][d]);
-            carry[k][d] = front;
-            if count < N::WIDTH {
-                // An open row's last node has its force of the element before it alone.
-                sum = sum.choose(N::zero(), first(count + usize::from(!row.closed)));
-            }
-            // SAFETY: a slot is a vector longer than its line.
-            unsafe {
-                if row.add[k] {
-                    sum += N::load(shared.f[d], to);
-                }
-                sum.store(shared.f[d], to);
-            }
+    let to = row.f[k] + batch.at();
+    let (mut back, front) = (f[BACK[k]][d], f[FRONT[k]][d]);
+    if count < N::WIDTH {
+        back = back.choose(N::zero(), first(count));
+    }
+    let mut sum = back + front.moved_up(carry[k][d]);
+    carry[k][d] = front;
+    if count < N::WIDTH {
+        // An open row's last node has its force of the element before it alone.
+        sum = sum.choose(N::zero(), first(count + usize::from(!row.closed)));
+    }
+    // SAFETY: a slot is a vector longer than its line.
+    unsafe {
+        if row.add[k] {
+            sum += N::load(places.f[d], to);
         }
+        sum.store(places.f[d], to);
     }
 }
 
-/// What the last element of a row, in lane `lanes` - 1 of `carry`, gives its front corners: to the first nodes of a closed
-/// row, else to a node more, which has its force already unless the batch is full.
+/// What the last element of a row, in lane `lanes` - 1 of `carry`, gives its front corners, on line `k` in direction `d`: to the
+/// first node of a closed row, else to a node more, which has its force already unless the batch is full.
 ///
 /// # Safety
 /// As [`add_to_rows`].
 #[inline(always)]
-unsafe fn end_of_row<N: Lanes>(row: &Row, shared: &Shared<N::Real>, lanes: usize, carry: &Carry<N>) {
-    for k in 0..4 {
-        for d in 0..3 {
-            // SAFETY: a slot is a vector longer than its line.
-            unsafe {
-                if row.closed {
-                    let start = shared.f[d].add(row.f[k]);
-                    *start += carry[k][d].lane(lanes - 1);
-                } else if lanes == N::WIDTH {
-                    let mut last = N::zero().moved_up(carry[k][d]);
-                    if row.add[k] {
-                        last += N::load(shared.f[d], row.f[k] + row.count);
-                    }
-                    last.store(shared.f[d], row.f[k] + row.count);
-                }
+unsafe fn end_of_row<N: Lanes>(
+    k: usize,
+    d: usize,
+    row: &Row,
+    places: &Places<N::Real>,
+    lanes: usize,
+    carry: &Carry<N>,
+) {
+    // SAFETY: a slot is a vector longer than its line.
+    unsafe {
+        if row.closed {
+            let start = places.f[d].add(row.f[k]);
+            *start += carry[k][d].lane(lanes - 1);
+        } else if lanes == N::WIDTH {
+            let mut last = N::zero().moved_up(carry[k][d]);
+            if row.add[k] {
+                last += N::load(places.f[d], row.f[k] + row.count);
             }
+            last.store(places.f[d], row.f[k] + row.count);
         }
     }
 }
 
-/// Adds the forces of the lanes on the next row to the start of its lines, whose first nodes have nothing from a lane before.
-/// What the lines before have in those lanes is left alone.
+/// Adds the forces of the lanes on the next row to the start of its line `k`, direction `d`, whose first node has nothing from a
+/// lane before. What the line before has in those lanes is left alone.
 ///
 /// # Safety
 /// As [`add_to_rows`]; the batch has lanes on `row`.
 #[inline(always)]
-unsafe fn start_of_row<N: Lanes>(row: &Row, shared: &Shared<N::Real>, batch: &Batch, f: &Corners<N>) {
+unsafe fn start_of_row<N: Lanes>(
+    k: usize,
+    d: usize,
+    row: &Row,
+    places: &Places<N::Real>,
+    batch: &Batch,
+    f: &Corners<N>,
+) {
     let mask = batch.next_lanes();
     let behind = mask & !(1 << batch.lanes());
-    for k in 0..4 {
-        for d in 0..3 {
-            let to = shared.f[d].wrapping_add(row.f[k]).wrapping_sub(batch.lanes());
-            let front = f[FRONT[k]][d].moved_up(N::zero()).choose(N::zero(), behind);
-            let mut sum = f[BACK[k]][d] + front;
-            // SAFETY: nothing but the lanes of the mask is touched.
-            unsafe {
-                if row.add[k] {
-                    sum += N::zero().load_over(to, mask);
-                }
-                sum.store_where(to, mask);
-            }
+    let to = places.f[d].wrapping_add(row.f[k]).wrapping_sub(batch.lanes());
+    let front = f[FRONT[k]][d].moved_up(N::zero()).choose(N::zero(), behind);
+    let mut sum = f[BACK[k]][d] + front;
+    // SAFETY: nothing but the lanes of the mask is touched.
+    unsafe {
+        if row.add[k] {
+            sum += N::zero().load_over(to, mask);
         }
+        sum.store_where(to, mask);
     }
 }

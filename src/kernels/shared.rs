@@ -105,6 +105,15 @@ pub struct Shared<'a, T> {
     arrays: PhantomData<&'a mut Arrays<T>>,
 }
 
+/// Where positions, velocities and forces lie, by direction. A pass keeps a copy of its own: what it reads of memory that others
+/// see, a compiler reads again after every number that is stored.
+#[derive(Clone, Copy)]
+pub struct Places<T> {
+    pub x: [*mut T; 3],
+    pub v: [*mut T; 3],
+    pub f: [*mut T; 3],
+}
+
 // SAFETY: what it points to may be reached from several threads under the contract above, which whoever dereferences a
 // pointer promises.
 unsafe impl<T: Send> Send for Shared<'_, T> {}
@@ -112,6 +121,11 @@ unsafe impl<T: Send> Send for Shared<'_, T> {}
 unsafe impl<T: Send> Sync for Shared<'_, T> {}
 
 impl<T: Real> Shared<'_, T> {
+    #[inline(always)]
+    pub fn places(&self) -> Places<T> {
+        Places { x: self.x, v: self.v, f: self.f }
+    }
+
     /// Sums of viscous power of an item, one a lane.
     #[inline(always)]
     pub fn power(&self, item: usize) -> *mut f64 {

@@ -23,14 +23,17 @@ impl<T: Real> Aligned<T> {
         Aligned { lines: bytemuck::zeroed_vec(lines), kind: std::marker::PhantomData }
     }
 
+    #[inline(always)]
     pub fn slice(&self) -> &[T] {
         bytemuck::cast_slice(&self.lines)
     }
 
+    #[inline(always)]
     pub fn slice_mut(&mut self) -> &mut [T] {
         bytemuck::cast_slice_mut(&mut self.lines)
     }
 
+    #[inline(always)]
     pub fn pointer(&mut self) -> *mut T {
         self.lines.as_mut_ptr().cast()
     }
@@ -52,6 +55,7 @@ impl<T: Real> Field<T> {
         Field { all: Aligned::zeros(3 * stride), stride }
     }
 
+    #[inline(always)]
     pub fn component(&self, d: usize) -> &[T] {
         &self.all.slice()[d * self.stride..(d + 1) * self.stride]
     }

@@ -18,8 +18,8 @@ pub trait Scalar:
     + AddAssign
     + SubAssign
 {
-    /// Whether a loop over points is worth its unrolling: not for lanes that the compiler itself has to put together.
-    const UNROLLED: bool = true;
+    /// Whether a loop over points is worth its unrolling: for lanes in registers, not for numbers that are called for now and then.
+    const UNROLLED: bool = false;
 
     /// Nearest value (every lane).
     fn from_f64(value: f64) -> Self;
@@ -42,9 +42,11 @@ pub trait Scalar:
     /// The smaller of the two; NaN if either is NaN, so that a failure cannot hide.
     fn min(self, other: Self) -> Self;
 
+    #[inline(always)]
     fn zero() -> Self {
         Self::from_f64(0.0)
     }
+    #[inline(always)]
     fn one() -> Self {
         Self::from_f64(1.0)
     }

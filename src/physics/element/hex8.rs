@@ -384,17 +384,27 @@ impl<N: Lanes> Shape<N> for SameShape<'_, N::Real> {
 /// A class a lane: the numbers of all of them, vector by vector, from number `first` on.
 #[derive(Debug, Clone, Copy)]
 pub struct LaneShapes<'a, T> {
-    pub numbers: &'a [T],
-    pub first: usize,
+    numbers: &'a [T],
+    first: usize,
+}
+
+impl<'a, T> LaneShapes<'a, T> {
+    /// # Safety
+    /// `numbers` has a vector for each number from `first` on that is asked for. A check of each would be a branch in code that
+    /// has none.
+    #[inline(always)]
+    pub unsafe fn new(numbers: &'a [T], first: usize) -> Self {
+        LaneShapes { numbers, first }
+    }
 }
 
 impl<N: Lanes> Shape<N> for LaneShapes<'_, N::Real> {
     #[inline(always)]
     fn number(&self, i: usize) -> N {
         let at = (i - self.first) * N::WIDTH;
-        let vector = &self.numbers[at..at + N::WIDTH];
-        // SAFETY: it is as long as a vector.
-        unsafe { N::load(vector.as_ptr(), 0) }
+        debug_assert!(at + N::WIDTH <= self.numbers.len());
+        // SAFETY: the promise of `LaneShapes::new`.
+        unsafe { N::load(self.numbers.as_ptr(), at) }
     }
 }
 

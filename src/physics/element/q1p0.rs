@@ -2,7 +2,7 @@ use super::hex8::{self, Corners, Shape};
 use super::{Class, Energy, Force, Formulation};
 use crate::material::{Hyperelastic, Viscosity};
 use crate::scalar::Scalar;
-use crate::tensor::{InPlane, Metric, Sym3, axpy, cofactor, combined, det, dot, scale};
+use crate::tensor::{InPlane, Mat3, Metric, Sym3, Vec3, axpy, cofactor, combined, det, dot, scale};
 use std::ops::Range;
 
 /// 2x2x2 points for the isochoric part, one element pressure p = U'(v/V) (Simo, Taylor & Pister's mean
@@ -42,13 +42,15 @@ impl<const EXTRUDED: bool> Formulation for Q1p0Of<EXTRUDED> {
     }
 }
 
-/// What the points add to the Gauss lines. Both points of a line have its column of A in common, so what multiplies that is
+/// What the points add to a Gauss line. Both points of a line have its column of A in common, so what multiplies that is
 /// summed first, and its square is computed once.
-struct LineSums<S> {
-    forces: hex8::LineColumns<S>,
+#[derive(Clone, Copy)]
+struct Line<S> {
+    force: Vec3<S>,
     /// Second Piola stress along the line: at its first point, or, of lines along zeta, at all so far.
-    along: [[S; 4]; 3],
-    squares: [[S; 4]; 3],
+    along: S,
+    /// Square of the column.
+    square: S,
 }
 
 /// All points. `POINTWISE`: the pressure is U'(J) of the point, not the element's `mean`; `EXTRUDED`: so are the elements.
@@ -70,75 +72,90 @@ pub(super) fn points<
 ) -> Force<S> {
     let zero = S::zero();
     let rates = if V::ON { hex8::gradients(v) } else { [[[zero; 3]; 4]; 3] };
-    let mut sums = LineSums { forces: [[[zero; 3]; 4]; 3], along: [[zero; 4]; 3], squares: [[zero; 4]; 3] };
-    for line in 0..4 {
-        sums.squares[2][line] = dot(columns[2][line], columns[2][line]);
-    }
-    let mut all = (sums, S::from_f64(1e30), zero);
+    let none = Line { force: [zero; 3], along: zero, square: zero };
+    let (mut xi, mut eta, mut zeta) = ([none; 4], [none; 4], [none; 4]);
+    zeta[0].square = dot(columns[2][0], columns[2][0]);
+    zeta[1].square = dot(columns[2][1], columns[2][1]);
+    zeta[2].square = dot(columns[2][2], columns[2][2]);
+    zeta[3].square = dot(columns[2][3], columns[2][3]);
+    let mut report = (S::from_f64(1e30), zero);
+    // A point by the signs of xi, eta and zeta (0: minus).
     macro_rules! point {
-        ($low:expr, $half:expr) => {
-            let (given, fields) = ((law, viscosity, class), (columns, &rates, mean));
+        ($right:expr, $up:expr, $far:expr) => {
+            let (i, j, k) = ($up + 2 * $far, $right + 2 * $far, $right + 2 * $up);
+            let q = $right + 2 * $up + 4 * $far;
+            let given = (law, viscosity, class, q);
+            let a = [columns[0][i], columns[1][j], columns[2][k]];
+            let rate = [rates[0][i], rates[1][j], rates[2][k]];
+            let lines = (&mut xi[i], &mut eta[j], &mut zeta[k]);
+            let first = ($right == 0, $up == 0, $far == 0);
             if EXTRUDED {
-                let metric = InPlane(class.metric($low + 4 * $half));
-                point::<S, L, V, G, _, POINTWISE>(given, &metric, fields, $low, $half, &mut all);
+                let metric = InPlane(class.metric(q));
+                point::<S, L, V, G, _, POINTWISE>(given, &metric, (a, rate, mean), lines, first, &mut report);
             } else {
-                let metric = class.metric($low + 4 * $half);
-                point::<S, L, V, G, _, POINTWISE>(given, &metric, fields, $low, $half, &mut all);
+                let metric = class.metric(q);
+                point::<S, L, V, G, _, POINTWISE>(given, &metric, (a, rate, mean), lines, first, &mut report);
             }
         };
     }
-    // With its number known a point's lines are registers, or places on the stack, and no addresses to be computed.
+    // With its signs known a point's lines are registers, or places on the stack, and no addresses to be computed.
     // Unrolled code takes long to compile: `full` on elements of any shape goes without.
     if S::UNROLLED && (EXTRUDED || !POINTWISE) {
-        point!(0, 0);
-        point!(1, 0);
-        point!(2, 0);
-        point!(3, 0);
-        point!(0, 1);
-        point!(1, 1);
-        point!(2, 1);
-        point!(3, 1);
+        point!(0, 0, 0);
+        point!(1, 0, 0);
+        point!(0, 1, 0);
+        point!(1, 1, 0);
+        point!(0, 0, 1);
+        point!(1, 0, 1);
+        point!(0, 1, 1);
+        point!(1, 1, 1);
     } else {
-        for half in 0..2 {
-            for low in 0..4 {
-                point!(low, half);
+        for far in 0..2 {
+            for up in 0..2 {
+                for right in 0..2 {
+                    point!(right, up, far);
+                }
             }
         }
     }
-    let (mut sums, min_j, viscous_power) = all;
-    for line in 0..4 {
-        sums.forces[2][line] = axpy(columns[2][line], sums.along[2][line], sums.forces[2][line]);
+    macro_rules! zeta {
+        ($k:literal) => {
+            axpy(columns[2][$k], zeta[$k].along, zeta[$k].force)
+        };
     }
-    Force { f: hex8::scatter(&sums.forces), min_j, viscous_power }
+    let forces = [
+        [xi[0].force, xi[1].force, xi[2].force, xi[3].force],
+        [eta[0].force, eta[1].force, eta[2].force, eta[3].force],
+        [zeta!(0), zeta!(1), zeta!(2), zeta!(3)],
+    ];
+    let (min_j, viscous_power) = report;
+    Force { f: hex8::scatter(&forces), min_j, viscous_power }
 }
 
-/// Point `low` (bits: the signs of xi and eta) of the half at the sign `half` of zeta, after those before it: adds to the lines, the
-/// smallest det F and the viscous power.
+/// Point q, after those before it: adds to its `lines` along xi, eta and zeta, of which it may be the `first` point, the
+/// smallest det F and the viscous power. `a` and `rate`: columns of A and of its rate.
+///
+/// Without loops: every point of every kernel has its own copy of this, and of a loop a compiler makes much before it unrolls it.
 #[inline(always)]
 fn point<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>, M: Metric<S>, const POINTWISE: bool>(
-    (law, viscosity, class): (&L, &V, &G),
+    (law, viscosity, class, q): (&L, &V, &G, usize),
     metric: &M,
-    (columns, rates, mean): (&hex8::LineColumns<S>, &hex8::LineColumns<S>, S),
-    low: usize,
-    half: usize,
-    (sums, min_j, power): &mut (LineSums<S>, S, S),
+    (a, rate, mean): (Mat3<S>, Mat3<S>, S),
+    (xi, eta, zeta): (&mut Line<S>, &mut Line<S>, &mut Line<S>),
+    first: (bool, bool, bool),
+    (min_j, power): &mut (S, S),
 ) {
     let (zero, weight) = (S::zero(), S::from_f64(hex8::WEIGHT));
-    let q = low + 4 * half;
-    let (right, up) = (low & 1, low >> 1);
-    let lines = [up + 2 * half, right + 2 * half, low];
-    // Whether this is the first point of its line.
-    let first = [right == 0, up == 0, half == 0];
-    let a = [columns[0][lines[0]], columns[1][lines[1]], columns[2][lines[2]]];
-    for d in 0..2 {
-        if first[d] {
-            sums.squares[d][lines[d]] = dot(a[d], a[d]);
-        }
+    if first.0 {
+        xi.square = dot(a[0], a[0]);
+    }
+    if first.1 {
+        eta.square = dot(a[1], a[1]);
     }
     let gram = Sym3 {
-        xx: sums.squares[0][lines[0]],
-        yy: sums.squares[1][lines[1]],
-        zz: sums.squares[2][lines[2]],
+        xx: xi.square,
+        yy: eta.square,
+        zz: zeta.square,
         xy: if M::XY || L::HAS_I2 { dot(a[0], a[1]) } else { zero },
         xz: if M::XZ || L::HAS_I2 { dot(a[0], a[2]) } else { zero },
         yz: if M::YZ || L::HAS_I2 { dot(a[1], a[2]) } else { zero },
@@ -151,47 +168,50 @@ fn point<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>, M: Metric<S>, co
     let pressure = (d.wj + if POINTWISE { law.dU(j) } else { mean }) * weight;
     let mut stress = [[zero; 3]; 3];
     if V::ON {
-        let rate = [rates[0][lines[0]], rates[1][lines[1]], rates[2][lines[2]]];
         let (viscous, point_power) = viscosity.stress(&rate, &cof, det_a, weight);
         *power += point_power;
         stress = hex8::with_pressure(viscous, pressure);
     }
     // A line's sum is read and written once: with places that a compiler cannot tell apart, each addition would be.
-    let mut g = [[zero; 3]; 3];
-    for d in 0..3 {
-        let (before, c) = (sums.forces[d][lines[d]], cof[d]);
-        g[d] = match (V::ON, first[d]) {
-            (false, true) => scale(c, pressure),
-            (false, false) => axpy(c, pressure, before),
-            (true, true) => combined(&stress, c[0], c[1], c[2]),
-            (true, false) => axpy(stress[0], c[0], axpy(stress[1], c[1], axpy(stress[2], c[2], before))),
+    macro_rules! pushed {
+        ($line:ident, $first:expr, $c:expr) => {
+            match (V::ON, $first) {
+                (false, true) => scale($c, pressure),
+                (false, false) => axpy($c, pressure, $line.force),
+                (true, true) => combined(&stress, $c[0], $c[1], $c[2]),
+                (true, false) => {
+                    axpy(stress[0], $c[0], axpy(stress[1], $c[1], axpy(stress[2], $c[2], $line.force)))
+                }
+            }
         };
     }
+    let (mut x, mut y) = (pushed!(xi, first.0, cof[0]), pushed!(eta, first.1, cof[1]));
+    let mut z = pushed!(zeta, first.2, cof[2]);
     let s = hex8::second_piola::<S, L, M>(&k, &d, metric, class.det_j0(q));
     if M::XY || L::HAS_I2 {
-        g[0] = axpy(a[1], s.xy, g[0]);
-        g[1] = axpy(a[0], s.xy, g[1]);
+        x = axpy(a[1], s.xy, x);
+        y = axpy(a[0], s.xy, y);
     }
     if M::XZ || L::HAS_I2 {
-        g[0] = axpy(a[2], s.xz, g[0]);
-        g[2] = axpy(a[0], s.xz, g[2]);
+        x = axpy(a[2], s.xz, x);
+        z = axpy(a[0], s.xz, z);
     }
     if M::YZ || L::HAS_I2 {
-        g[1] = axpy(a[2], s.yz, g[1]);
-        g[2] = axpy(a[1], s.yz, g[2]);
+        y = axpy(a[2], s.yz, y);
+        z = axpy(a[1], s.yz, z);
     }
-    let own = [s.xx, s.yy];
-    for d in 0..2 {
-        if first[d] {
-            sums.along[d][lines[d]] = own[d];
-        } else {
-            g[d] = axpy(a[d], sums.along[d][lines[d]] + own[d], g[d]);
-        }
+    if first.0 {
+        xi.along = s.xx;
+    } else {
+        x = axpy(a[0], xi.along + s.xx, x);
     }
-    sums.along[2][low] = if first[2] { s.zz } else { sums.along[2][low] + s.zz };
-    for d in 0..3 {
-        sums.forces[d][lines[d]] = g[d];
+    if first.1 {
+        eta.along = s.yy;
+    } else {
+        y = axpy(a[1], eta.along + s.yy, y);
     }
+    zeta.along = if first.2 { s.zz } else { zeta.along + s.zz };
+    (xi.force, eta.force, zeta.force) = (x, y, z);
     *min_j = min_j.min(j);
 }
 

@@ -59,8 +59,6 @@ impl<T: Real, const N: usize> SubAssign for Array<T, N> {
 }
 
 impl<T: Real, const N: usize> Scalar for Array<T, N> {
-    const UNROLLED: bool = false;
-
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Array([T::from_f64(value); N])

@@ -73,6 +73,7 @@ macro_rules! lanes {
         }
 
         impl Scalar for $name {
+            const UNROLLED: bool = true;
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
                 // SAFETY: lanes exist only where their instructions do (head of this file).

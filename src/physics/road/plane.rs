@@ -15,8 +15,10 @@ pub struct Plane {
 
 impl Plane {
     /// n . point [m].
+    #[inline(always)]
     fn offset(&self) -> f64 {
-        (0..3).map(|d| self.normal[d] * self.point[d]).sum()
+        let (n, p) = (self.normal, self.point);
+        n[0] * p[0] + n[1] * p[1] + n[2] * p[2]
     }
 
     /// The point nearest to the origin [m]: where its coordinates are zero.
