@@ -75,6 +75,7 @@ fn forces_of_mean_gradients_are_those_of_elements_one_by_one() {
     forces_are_plain(Element::UniformGradient { hourglass: 0.15 });
 }
 
+/// In one piece: meshes one after the other, from the rows of a ring to elements with nothing in common.
 fn forces_are_plain(element: Element) {
     let mut random = Random::new(7);
     let of = |mut scene: Scene| {

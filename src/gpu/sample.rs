@@ -53,7 +53,8 @@ impl GpuEngine {
         self.body.reset_failure();
     }
 
-    /// The window since the last sample, and the probe; see [`Engine::sample`](crate::engine::Engine::sample).
+    /// The window since the last sample, and the probe; see [`Engine::sample`](crate::engine::Engine::sample). In one piece: it is a
+    /// table of which sum is which quantity.
     pub(super) fn take_sample(&mut self, next: &Step) -> Result<Window> {
         self.body.restore()?;
         self.ready()?;

@@ -107,6 +107,7 @@ impl Newton {
         result
     }
 
+    /// In one piece: most of what an iteration computes is looked at by the next.
     fn iterate(
         &mut self,
         problem: &Problem<'_>,

@@ -70,7 +70,8 @@ pub struct Rolling {
 const LEAST_TURN: f64 = 1e-3;
 
 impl Rolling {
-    /// The figures of a stage; none unless it rolls on a road. `free_radius`: what its longitudinal slip is related to [m].
+    /// The figures of a stage; none unless it rolls on a road. `free_radius`: what its longitudinal slip is related to [m]. In one
+    /// piece: it is the list of the figures' formulas.
     pub fn of(
         history: &[Sample],
         span: &Span,

@@ -82,7 +82,7 @@ impl Axis {
         format!("{}{unit}", self.key.replace('-', " "))
     }
 
-    /// What a value changes in `scene`.
+    /// What a value changes in `scene`. In one piece: an arm for each key.
     ///
     /// # Errors
     /// [`Error::Scene`] if the scene has nothing that the key could change, or the value is not one.

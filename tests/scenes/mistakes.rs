@@ -124,6 +124,7 @@ fn what_is_missing_is_asked_for_at_its_table() {
     }
 }
 
+/// In one piece: a list.
 #[test]
 fn wrong_units_and_kinds_of_value_are_answered_with_right_ones() {
     const KINDS: [Mistake; 16] = [
@@ -201,6 +202,7 @@ fn wrong_units_and_kinds_of_value_are_answered_with_right_ones() {
     KINDS.into_iter().for_each(check);
 }
 
+/// In one piece: a list.
 #[test]
 fn an_impossible_body_is_refused() {
     const SUM: &str = "g0 = \"1 MPa\"\ng1 = \"1 MPa\"\ng2 = \"-1 MPa\"";
@@ -338,6 +340,7 @@ fn what_needs_a_rim_or_a_road_says_so() {
     }
 }
 
+/// In one piece: a list.
 #[test]
 fn an_impossible_stage_is_refused() {
     const STAGE: [Mistake; 16] = [

@@ -200,6 +200,7 @@ fn missing(rows: &[Missing]) -> String {
     text + "\n"
 }
 
+/// In one piece: tables, column by column.
 fn steps(report: &CriticalReport) -> String {
     let mut text = String::from("Critical step [us], paper's wheel, rim held:\n\n");
     text += &header(&[

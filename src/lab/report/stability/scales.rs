@@ -158,6 +158,7 @@ fn chatter() -> Result<Vec<Claim>> {
     Ok(named(&run(0.0)?, &run(20.0)?))
 }
 
+/// Runs of many steps. In one piece: the claims share their runs.
 fn long() -> Result<Vec<Claim>> {
     let steps = |wanted: f64, eta: f64| -> Result<Outcome> {
         // As long as the longest step of a short run would take for so many.
