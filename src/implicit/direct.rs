@@ -7,10 +7,7 @@ use super::krylov::{Krylov, LinearSolver, Preconditioner};
 use super::matrix::BlockMatrix;
 use super::system::System;
 use crate::physics::tensor::Vec3;
-use faer::prelude::Solve;
-use faer::sparse::linalg::solvers::{Llt, Lu};
-use faer::sparse::{SparseColMat, Triplet};
-use faer::{Col, Side};
+use hexroll_factors::{Cholesky, Entry, LowerUpper, Matrix};
 
 /// Residual that GMRES goes down to, relative, and the iterations after which LU factors would have been faster.
 const TOLERANCE: f64 = 1e-12;
@@ -19,10 +16,10 @@ const MOST: usize = 60;
 const MOST_OF_OLD: usize = 14;
 
 enum Factors {
-    Cholesky(Factored<Llt<usize, f64>>),
+    Cholesky(Factored<Cholesky>),
     /// Of the symmetric part.
     Half(Box<Krylov<SymmetricPart>>),
-    Lu(Box<Factored<Lu<usize, f64>>>),
+    Lu(Box<Factored<LowerUpper>>),
 }
 
 /// Solves with the factors of the last matrix.
@@ -101,17 +98,16 @@ impl Direct {
     }
 }
 
-fn lu(system: &System) -> Option<Box<Factored<Lu<usize, f64>>>> {
+fn lu(system: &System) -> Option<Box<Factored<LowerUpper>>> {
     let numbers = Numbers::new(system);
     let matrix = numbers.sparse(&system.matrix, |own, _| own)?;
-    let bytes = matrix.compute_nnz() * 16;
-    Some(Box::new(Factored { bytes, factors: matrix.sp_lu().ok()?, numbers }))
+    Some(Box::new(Factored { bytes: matrix.bytes(), factors: LowerUpper::new(&matrix)?, numbers }))
 }
 
 /// Cholesky's factors of a matrix's symmetric part.
 #[derive(Default)]
 pub struct SymmetricPart {
-    factors: Option<Factored<Llt<usize, f64>>>,
+    factors: Option<Factored<Cholesky>>,
 }
 
 impl Preconditioner for SymmetricPart {
@@ -120,8 +116,7 @@ impl Preconditioner for SymmetricPart {
         let numbers = Numbers::new(system);
         let near = system.near.as_ref().unwrap_or(&system.matrix);
         let matrix = numbers.sparse(near, |own, mirrored| 0.5 * (own + mirrored))?;
-        let factors = matrix.sp_cholesky(Side::Lower).ok()?;
-        self.factors = Some(Factored { bytes: matrix.compute_nnz() * 16, factors, numbers });
+        self.factors = Some(Factored { bytes: matrix.bytes(), factors: Cholesky::new(&matrix)?, numbers });
         Some(())
     }
 
@@ -141,11 +136,11 @@ struct Factored<F> {
     bytes: usize,
 }
 
-impl<F: Solve<f64>> Factored<F> {
+impl<F: hexroll_factors::Factors> Factored<F> {
     fn solve(&self, b: &[Vec3<f64>]) -> Vec<Vec3<f64>> {
-        let mut column = Col::<f64>::zeros(self.numbers.count);
-        self.numbers.each(|n, i, k| column[k] = b[n][i]);
-        let y = self.factors.solve(&column);
+        let mut y = vec![0.0; self.numbers.count];
+        self.numbers.each(|n, i, k| y[k] = b[n][i]);
+        self.factors.solve(&mut y);
         let mut out = vec![[0.0; 3]; b.len()];
         self.numbers.each(|n, i, k| out[n][i] = y[k]);
         out
@@ -182,19 +177,18 @@ impl Numbers {
     }
 
     /// The matrix whose entries are `of` an entry and the one across the diagonal.
-    fn sparse(&self, matrix: &BlockMatrix, of: impl Fn(f64, f64) -> f64) -> Option<SparseColMat<usize, f64>> {
-        let mut triplets = Vec::with_capacity(9 * matrix.blocks.len());
-        let a = matrix;
+    fn sparse(&self, matrix: &BlockMatrix, of: impl Fn(f64, f64) -> f64) -> Option<Matrix> {
+        let mut entries = Vec::with_capacity(9 * matrix.blocks.len());
         for (n, numbers) in self.of.iter().enumerate() {
-            for (m, block) in a.row(n) {
-                let across = &a.blocks[a.entry(m, n as u32)];
+            for (m, block) in matrix.row(n) {
+                let across = &matrix.blocks[matrix.entry(m, n as u32)];
                 for (i, k) in numbers.iter().enumerate().filter_map(|(i, k)| Some((i, (*k)?))) {
                     for (j, l) in self.of[m].iter().enumerate().filter_map(|(j, l)| Some((j, (*l)?))) {
-                        triplets.push(Triplet::new(k, l, of(block[i][j], across[j][i])));
+                        entries.push(Entry::new(k, l, of(block[i][j], across[j][i])));
                     }
                 }
             }
         }
-        SparseColMat::try_new_from_triplets(self.count, self.count, &triplets).ok()
+        Matrix::new(self.count, &entries)
     }
 }

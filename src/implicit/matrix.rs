@@ -15,20 +15,30 @@ pub struct BlockMatrix {
     pub blocks: Vec<Block>,
 }
 
+// Components are written out where a product is the inner loop: `std::array::from_fn` is not always inlined.
+
 /// b x
 #[inline(always)]
 pub fn times(b: &Block, x: Vec3<f64>) -> Vec3<f64> {
-    std::array::from_fn(|i| b[i][0] * x[0] + b[i][1] * x[1] + b[i][2] * x[2])
+    let [r, s, t] = b;
+    let by = |row: &Vec3<f64>| row[0] * x[0] + row[1] * x[1] + row[2] * x[2];
+    [by(r), by(s), by(t)]
 }
 
 /// a b
+#[inline]
 pub fn product(a: &Block, b: &Block) -> Block {
-    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
+    let [r, s, t] = a;
+    let by = |row: &Vec3<f64>, j: usize| row[0] * b[0][j] + row[1] * b[1][j] + row[2] * b[2][j];
+    let row = |row: &Vec3<f64>| [by(row, 0), by(row, 1), by(row, 2)];
+    [row(r), row(s), row(t)]
 }
 
 /// b^T
+#[inline]
 pub fn transposed(b: &Block) -> Block {
-    std::array::from_fn(|i| std::array::from_fn(|j| b[j][i]))
+    let column = |j: usize| [b[0][j], b[1][j], b[2][j]];
+    [column(0), column(1), column(2)]
 }
 
 /// Inverse of a block; entries are not finite where it is singular.

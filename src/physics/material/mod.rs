@@ -42,11 +42,23 @@ pub struct Derivatives<S> {
     pub wj: S,
 }
 
-/// A hyperelastic law: its parameters, and formulas for any scalar.
-pub trait Hyperelastic: Parameters {
+/// A hyperelastic energy: formulas for any scalar.
+pub trait Hyperelastic: Copy + std::fmt::Debug + Send + Sync + 'static {
     /// Whether the energy depends on I2 (its code is left out otherwise).
     const HAS_I2: bool;
 
+    /// Pointwise energy per reference volume [Pa].
+    fn psi<S: Scalar>(&self, i1: S, i2: S, j: S) -> S;
+    /// Its derivatives.
+    fn derivatives<S: Scalar>(&self, i1: S, i2: S, j: S) -> Derivatives<S>;
+    /// Volumetric energy U(J) [Pa] and its first two derivatives.
+    fn U<S: Scalar>(&self, j: S) -> S;
+    fn dU<S: Scalar>(&self, j: S) -> S;
+    fn ddU<S: Scalar>(&self, j: S) -> S;
+}
+
+/// A hyperelastic law with its parameters and its moduli at small strain.
+pub trait Moduli: Hyperelastic + Parameters {
     /// Initial shear modulus G [Pa].
     fn shear_modulus(&self) -> f64;
     /// Initial bulk modulus kappa [Pa].
@@ -65,21 +77,12 @@ pub trait Hyperelastic: Parameters {
     {
         self.into()
     }
-
-    /// Pointwise energy per reference volume [Pa].
-    fn psi<S: Scalar>(&self, i1: S, i2: S, j: S) -> S;
-    /// Its derivatives.
-    fn derivatives<S: Scalar>(&self, i1: S, i2: S, j: S) -> Derivatives<S>;
-    /// Volumetric energy U(J) [Pa] and its first two derivatives.
-    fn U<S: Scalar>(&self, j: S) -> S;
-    fn dU<S: Scalar>(&self, j: S) -> S;
-    fn ddU<S: Scalar>(&self, j: S) -> S;
 }
 
 /// What is done with a law once its type is known.
 pub trait WithLaw {
     type Output;
-    fn with<L: Hyperelastic>(self, law: L) -> Self::Output
+    fn with<L: Moduli>(self, law: L) -> Self::Output
     where
         Law: From<L>;
 }
@@ -124,11 +127,51 @@ macro_rules! laws {
                 }
             }
         }
+
+        /// Code for all laws, which asks at every point which one it is: for work that is not done in every step.
+        impl Hyperelastic for Law {
+            const HAS_I2: bool = true;
+
+            #[inline(always)]
+            fn psi<S: Scalar>(&self, i1: S, i2: S, j: S) -> S {
+                match self {
+                    $(Law::$law(law) => law.psi(i1, i2, j)),*
+                }
+            }
+
+            #[inline(always)]
+            fn derivatives<S: Scalar>(&self, i1: S, i2: S, j: S) -> Derivatives<S> {
+                match self {
+                    $(Law::$law(law) => law.derivatives(i1, i2, j)),*
+                }
+            }
+
+            #[inline(always)]
+            fn U<S: Scalar>(&self, j: S) -> S {
+                match self {
+                    $(Law::$law(law) => law.U(j)),*
+                }
+            }
+
+            #[inline(always)]
+            fn dU<S: Scalar>(&self, j: S) -> S {
+                match self {
+                    $(Law::$law(law) => law.dU(j)),*
+                }
+            }
+
+            #[inline(always)]
+            fn ddU<S: Scalar>(&self, j: S) -> S {
+                match self {
+                    $(Law::$law(law) => law.ddU(j)),*
+                }
+            }
+        }
     };
 }
 for_every_law!(laws);
 
-const fn kind<L: Hyperelastic>() -> Kind
+const fn kind<L: Moduli>() -> Kind
 where
     Law: From<L>,
 {
@@ -142,7 +185,7 @@ where
 }
 
 /// A law whose moduli are positive.
-fn checked<L: Hyperelastic>(law: L) -> Result<Law, Fault>
+fn checked<L: Moduli>(law: L) -> Result<Law, Fault>
 where
     Law: From<L>,
 {
@@ -168,7 +211,7 @@ macro_rules! answers {
                 struct Answer;
                 impl WithLaw for Answer {
                     type Output = $type;
-                    fn with<$kind: Hyperelastic>(self, $law: $kind) -> $type {
+                    fn with<$kind: Moduli>(self, $law: $kind) -> $type {
                         $value
                     }
                 }

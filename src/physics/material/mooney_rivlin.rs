@@ -1,4 +1,4 @@
-use super::{Derivatives, Hyperelastic, Law, NeoHookean};
+use super::{Derivatives, Hyperelastic, Law, Moduli, NeoHookean};
 use crate::parameters::parameters;
 use crate::scalar::Scalar;
 
@@ -16,8 +16,7 @@ parameters! {
     }
 }
 
-impl Hyperelastic for MooneyRivlin {
-    const HAS_I2: bool = true;
+impl Moduli for MooneyRivlin {
     const KEYS_OF_MODULI: [&'static str; 2] = ["g1", "g0"];
 
     fn shear_modulus(&self) -> f64 {
@@ -41,6 +40,10 @@ impl Hyperelastic for MooneyRivlin {
         let MooneyRivlin { g0, g1, g2 } = self;
         if g2 == 0.0 { NeoHookean { g0, g1 }.into() } else { self.into() }
     }
+}
+
+impl Hyperelastic for MooneyRivlin {
+    const HAS_I2: bool = true;
 
     #[inline(always)]
     fn psi<S: Scalar>(&self, i1: S, i2: S, j: S) -> S {

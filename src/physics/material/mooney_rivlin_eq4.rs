@@ -1,4 +1,4 @@
-use super::{Derivatives, Hyperelastic};
+use super::{Derivatives, Hyperelastic, Moduli};
 use crate::parameters::parameters;
 use crate::scalar::Scalar;
 
@@ -17,8 +17,7 @@ parameters! {
     }
 }
 
-impl Hyperelastic for MooneyRivlinEq4 {
-    const HAS_I2: bool = true;
+impl Moduli for MooneyRivlinEq4 {
     const KEYS_OF_MODULI: [&'static str; 2] = ["g1", "g0"];
 
     fn shear_modulus(&self) -> f64 {
@@ -36,6 +35,10 @@ impl Hyperelastic for MooneyRivlinEq4 {
     fn example(shear: f64, bulk: f64) -> Self {
         MooneyRivlinEq4 { g0: bulk - 2.0 / 3.0 * shear, g1: 0.7 * shear, g2: 0.3 * shear }
     }
+}
+
+impl Hyperelastic for MooneyRivlinEq4 {
+    const HAS_I2: bool = true;
 
     #[inline(always)]
     fn psi<S: Scalar>(&self, i1: S, i2: S, j: S) -> S {

@@ -1,4 +1,4 @@
-use super::{Derivatives, Hyperelastic};
+use super::{Derivatives, Hyperelastic, Moduli};
 use crate::parameters::parameters;
 use crate::scalar::Scalar;
 
@@ -14,8 +14,7 @@ parameters! {
     }
 }
 
-impl Hyperelastic for NeoHookean {
-    const HAS_I2: bool = false;
+impl Moduli for NeoHookean {
     const KEYS_OF_MODULI: [&'static str; 2] = ["g1", "g0"];
 
     fn shear_modulus(&self) -> f64 {
@@ -33,6 +32,10 @@ impl Hyperelastic for NeoHookean {
     fn example(shear: f64, bulk: f64) -> Self {
         NeoHookean::from_moduli(shear, bulk)
     }
+}
+
+impl Hyperelastic for NeoHookean {
+    const HAS_I2: bool = false;
 
     #[inline(always)]
     fn psi<S: Scalar>(&self, i1: S, _i2: S, j: S) -> S {

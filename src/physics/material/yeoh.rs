@@ -1,4 +1,4 @@
-use super::{Derivatives, Hyperelastic, Law, NeoHookean};
+use super::{Derivatives, Hyperelastic, Law, Moduli, NeoHookean};
 use crate::parameters::parameters;
 use crate::scalar::Scalar;
 
@@ -27,8 +27,7 @@ impl Yeoh {
     }
 }
 
-impl Hyperelastic for Yeoh {
-    const HAS_I2: bool = false;
+impl Moduli for Yeoh {
     const KEYS_OF_MODULI: [&'static str; 2] = ["c10", "bulk_modulus"];
 
     fn shear_modulus(&self) -> f64 {
@@ -54,6 +53,10 @@ impl Hyperelastic for Yeoh {
         let linear = c20 == 0.0 && c30 == 0.0;
         if linear { NeoHookean { g0: bulk_modulus, g1: 2.0 * c10 }.into() } else { self.into() }
     }
+}
+
+impl Hyperelastic for Yeoh {
+    const HAS_I2: bool = false;
 
     #[inline(always)]
     fn psi<S: Scalar>(&self, i1: S, _i2: S, j: S) -> S {
