@@ -50,11 +50,12 @@ pub struct Sample {
     /// Largest normal force of a node over its deformed area, mean over its time in contact within the window (within
     /// a facet's passing, if that is shorter) [Pa].
     pub peak_pressure_Pa: f64,
-    /// Kinetic energy at the last half step [J].
+    /// Kinetic energy at the last half step, of the body and of the rim's own mass and inertia in its free components [J].
     pub kinetic_J: f64,
     pub strain_J: f64,
     pub hourglass_J: f64,
-    /// Rim work and body-force work [J].
+    /// Work of what drives and loads the rim, less what mass damping takes from it, and of the body force, on the body and on
+    /// the rim's own mass [J].
     pub external_work_J: f64,
     pub friction_work_J: f64,
     /// Work that the road's motion puts in: its force on the body times the velocity of its surface [J]. Friction dissipates this

@@ -54,7 +54,7 @@ pub fn rate(engine: &mut dyn Engine, model: &Model, scene: &Scene, element_bound
     let dt = 0.5 * element_bound;
     let [x, y, z] = model.mesh.axle;
     let rim = [x, y, z, 0.0, 0.0, 0.0];
-    let motion = Motion::at_rest(rim).next(&scene.stages[0], 0.0, rim);
+    let motion = Motion::at_rest(rim, scene.gravity).next(&scene.stages[0], 0.0, rim, [0.0; 6]);
     engine.begin_stage(&motion.setup(scene.stages[0].mass_damping))?;
     // The first step also builds what an engine builds on first use.
     let mut batch = |first: usize, count: usize| -> Result<Duration> {

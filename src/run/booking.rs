@@ -17,7 +17,8 @@ impl Run<'_> {
     /// Books a window whose last step was `dt` long, and hands out its row.
     pub fn book(&mut self, stage: &Stage, dt: f64, window: &Window, footprint: &Footprint) -> Result<Sample> {
         let (time, length) = (self.state.totals.time, self.state.recorder.force_time);
-        let at = WindowEnd { time, length, dt, stage: stage.name.clone() };
+        let rim_kinetic = self.state.rim.motion.own_kinetic(&window.rim_rate);
+        let at = WindowEnd { time, length, dt, stage: stage.name.clone(), rim_kinetic };
         let row = self.state.totals.ledger.row(self.scene.road.as_ref(), &at, window, footprint);
         let totals = &self.state.totals;
         let end = self.state.recorder.end;

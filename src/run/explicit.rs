@@ -39,8 +39,8 @@ impl Run<'_> {
     /// Whether a quasi-static stage has come to rest.
     fn has_settled(&mut self, stage: &Stage, window: &Window) -> Result<bool> {
         let State { totals, rim, control, settling, .. } = &mut self.state;
-        let ramps_are_over = totals.time >= rim.motion.settled_after();
-        settling.at_rest(stage, window, ramps_are_over, control, self.model, self.engine)
+        let moving = (totals.time >= rim.motion.settled_after()).then(|| rim.own_kinetic());
+        settling.at_rest(stage, window, moving, control, self.model, self.engine)
     }
 
     /// Steps to `end` and books the window.

@@ -111,6 +111,7 @@ impl<'a> Run<'a> {
             state.v.fill([0.0; 3]);
             self.state.rim.rate = [0.0; 6];
             self.state.totals.ledger.velocities_set(0.0);
+            self.state.totals.ledger.rim_set(0.0);
         }
         let surface = surface(self.scene.road.as_ref(), self.scene.friction, model);
         let rim = [self.state.rim.at, self.state.rim.rate];
@@ -125,7 +126,7 @@ impl<'a> Run<'a> {
             time,
             dt,
             rim: self.state.rim.motion.coordinates_at(time),
-            load: self.state.rim.motion.load_at(time),
+            load: self.state.rim.motion.pull_at(time),
             free: self.state.rim.motion.setup(0.0).free,
             damping: stage.mass_damping,
         }

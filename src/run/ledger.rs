@@ -14,6 +14,9 @@ pub struct Ledger {
     /// Kinetic energy put in by setting velocities [J], as the two balances see it.
     given_kinetic: f64,
     given_mixed: f64,
+    /// Kinetic energy of the rim's own mass that was set, not worked for [J], and what it was last.
+    rim_given: f64,
+    rim_kinetic: f64,
     /// Energies of the last window.
     kinetic: f64,
     mixed_kinetic: f64,
@@ -39,6 +42,8 @@ pub struct WindowEnd {
     pub length: f64,
     pub dt: f64,
     pub stage: String,
+    /// Kinetic energy of the rim's own mass and inertia [J].
+    pub rim_kinetic: f64,
 }
 
 impl Ledger {
@@ -58,14 +63,26 @@ impl Ledger {
         (self.kinetic, self.mixed_kinetic) = (kinetic, kinetic);
     }
 
+    /// The rates of free components were set, or other components are free from now on: `kinetic` is the kinetic energy of
+    /// the rim's own mass [J].
+    pub fn rim_set(&mut self, kinetic: f64) {
+        self.rim_given += kinetic - self.rim_kinetic;
+        self.rim_kinetic = kinetic;
+    }
+
     /// The stored energy before the first step.
     pub fn start(&mut self, strain: f64) {
         (self.started, self.strain_start) = (true, strain);
     }
 
     /// Books a window and makes its row; `footprint` was taken over its parts.
+    ///
+    /// The balances are those of the body, which the rim works on. The row's energies are those of body and rim: the work
+    /// that was done on the rim's own mass, its change of kinetic energy, is added to both sides.
     pub fn row(&mut self, road: Option<&Road>, end: &WindowEnd, w: &Window, footprint: &Footprint) -> Sample {
         debug_assert!(self.started);
+        self.rim_kinetic = end.rim_kinetic;
+        let work_on_rim = self.rim_kinetic - self.rim_given;
         self.works.accumulate(&w.works);
         self.book_friction(w);
         (self.kinetic, self.mixed_kinetic) = (w.kinetic, w.probe.mixed_kinetic);
@@ -108,10 +125,10 @@ impl Ledger {
             rim_angle_rad: w.rim[rim::SPIN],
             steer_rad: w.rim[3],
             camber_rad: w.rim[4],
-            kinetic_J: w.kinetic,
+            kinetic_J: w.kinetic + self.rim_kinetic,
             strain_J: w.strain,
             hourglass_J: w.hourglass,
-            external_work_J: works.rim + works.body_force,
+            external_work_J: works.rim + works.body_force + work_on_rim,
             friction_work_J: works.friction,
             road_work_J: self.road_work,
             contact_work_J: works.normal,

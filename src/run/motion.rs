@@ -2,7 +2,7 @@
 
 use crate::engine::{StageSetup, Step};
 use crate::physics::rim::Coordinates;
-use crate::scene::{Drive, RimMotion, Stage};
+use crate::scene::{Drive, Stage};
 
 /// Smooth step from 0 to 1 with vanishing first and second derivatives at both ends.
 fn smooth(s: f64) -> f64 {
@@ -16,13 +16,6 @@ fn smooth_integral(s: f64) -> f64 {
     s * s * s * s * (2.5 + s * (s - 3.0))
 }
 
-impl RimMotion {
-    /// Components in the order of [`Coordinates`].
-    pub fn drives(&self) -> [Drive; 6] {
-        [self.x, self.y, self.z, self.steer, self.camber, self.spin]
-    }
-}
-
 /// Motion of the rim during one stage.
 #[derive(Debug, Clone)]
 pub struct Motion {
@@ -34,11 +27,13 @@ pub struct Motion {
     /// Rates and loads at the end of the stage before.
     rate: Coordinates,
     load: Coordinates,
+    /// Body force per mass [m/s2].
+    gravity: [f64; 3],
 }
 
 impl Motion {
-    /// Motion of the first stage from rest at `origin`.
-    pub fn at_rest(origin: Coordinates) -> Motion {
+    /// Motion of the first stage from rest at `origin`, in a body force per mass of `gravity` [m/s2].
+    pub fn at_rest(origin: Coordinates, gravity: [f64; 3]) -> Motion {
         Motion {
             drives: [Drive::Hold; 6],
             start_time: 0.0,
@@ -46,18 +41,22 @@ impl Motion {
             start: origin,
             rate: [0.0; 6],
             load: [0.0; 6],
+            gravity,
         }
     }
 
-    /// The next stage, which starts at `time` with the rim at `now` (which free components have moved).
-    pub fn next(&self, stage: &Stage, time: f64, now: Coordinates) -> Motion {
+    /// The next stage, which starts at `time` with the rim at `now`, where free components have moved it, at `rate`.
+    pub fn next(&self, stage: &Stage, time: f64, now: Coordinates, rate: Coordinates) -> Motion {
+        let planned = self.rate_at(time);
+        let is_free = |c: usize| matches!(self.drives[c], Drive::Free { .. });
         Motion {
             drives: stage.rim.drives(),
             start_time: time,
             origin: self.origin,
             start: now,
-            rate: self.rate_at(time),
+            rate: std::array::from_fn(|c| if is_free(c) { rate[c] } else { planned[c] }),
             load: self.load_at(time),
+            gravity: self.gravity,
         }
     }
 
@@ -107,6 +106,29 @@ impl Motion {
         })
     }
 
+    /// What pulls on the free components at a time [N, N m]: the applied loads, and the weight of the rim's own mass along
+    /// x, y and z, which no ramp holds back. The rim's centre of mass is on the axle, so that its weight has no moment.
+    pub fn pull_at(&self, time: f64) -> Coordinates {
+        let mut pull = self.load_at(time);
+        for (component, gravity) in self.gravity.into_iter().enumerate() {
+            pull[component] += self.own(component).map_or(0.0, |mass| mass * gravity);
+        }
+        pull
+    }
+
+    /// The rim's own mass, or inertia, against a free component [kg, kg m2].
+    fn own(&self, component: usize) -> Option<f64> {
+        match self.drives[component] {
+            Drive::Free { mass, .. } => Some(mass),
+            _ => None,
+        }
+    }
+
+    /// Kinetic energy of the rim's own mass and inertia at the given rates, in its free components [J].
+    pub fn own_kinetic(&self, rate: &Coordinates) -> f64 {
+        (0..6).map(|c| self.own(c).map_or(0.0, |own| 0.5 * own * rate[c] * rate[c])).sum()
+    }
+
     /// Time at which every ramp of the stage is over.
     pub fn settled_after(&self) -> f64 {
         let ramp = |d: &Drive| match *d {
@@ -120,11 +142,7 @@ impl Motion {
 
     /// What the engine needs to know of the stage.
     pub fn setup(&self, mass_damping: f64) -> StageSetup {
-        let free = self.drives.map(|d| match d {
-            Drive::Free { mass, .. } => Some(mass),
-            _ => None,
-        });
-        StageSetup { mass_damping, free }
+        StageSetup { mass_damping, free: std::array::from_fn(|component| self.own(component)) }
     }
 
     /// Plans `count` steps of `dt` from `time`, the first after a step of `before`.
@@ -136,7 +154,7 @@ impl Motion {
                 dt,
                 dt_before: if n == 0 { before } else { dt },
                 rim: self.coordinates_at(at + dt),
-                load: self.load_at(at),
+                load: self.pull_at(at),
             }
         };
         (0..count).map(step).collect()
@@ -153,10 +171,15 @@ pub struct RimState {
 }
 
 impl RimState {
-    /// At rest with its centre on the axle [m], before the first stage.
-    pub fn at_rest([x, y, z]: [f64; 3]) -> RimState {
+    /// At rest with its centre on the axle [m], before the first stage; `gravity`: body force per mass [m/s2].
+    pub fn at_rest([x, y, z]: [f64; 3], gravity: [f64; 3]) -> RimState {
         let at = [x, y, z, 0.0, 0.0, 0.0];
-        RimState { motion: Motion::at_rest(at), at, rate: [0.0; 6] }
+        RimState { motion: Motion::at_rest(at, gravity), at, rate: [0.0; 6] }
+    }
+
+    /// Kinetic energy of its own mass and inertia, in its free components [J].
+    pub fn own_kinetic(&self) -> f64 {
+        self.motion.own_kinetic(&self.rate)
     }
 }
 

@@ -26,12 +26,13 @@ impl Settling {
         self.ratios[1]
     }
 
-    /// Looks at a window, and says whether a quasi-static stage has come to rest with it.
+    /// Looks at a window, and says whether a quasi-static stage has come to rest with it. `rim`: the kinetic energy of the
+    /// rim's own mass, which no node has [J]; none while ramps go on.
     pub fn at_rest(
         &mut self,
         stage: &Stage,
         window: &Window,
-        ramps_are_over: bool,
+        rim: Option<f64>,
         control: &StepControl,
         model: &Model,
         engine: &mut dyn Engine,
@@ -40,13 +41,13 @@ impl Settling {
         let ratio = |a: f64, b: f64| if b > 0.0 { a / b } else { f64::INFINITY };
         let before = self.ratios[1];
         self.ratios = [
-            ratio(window.kinetic, window.strain),
+            ratio(window.kinetic + rim.unwrap_or(0.0), window.strain),
             ratio(window.probe.net_force, window.probe.internal_force),
         ];
         let half_unit = half_unit(model, &*engine);
         let amplitude = rounding_amplitude(stage, control);
         let still = || window.kinetic <= rounding_kinetic(model, control, half_unit, amplitude);
-        if !ramps_are_over || !(self.ratios[0] <= kinetic_ratio || still()) {
+        if rim.is_none() || !(self.ratios[0] <= kinetic_ratio || still()) {
             return Ok(false);
         }
         // Where rounding leaves more than is asked for, it is over when the net force has stopped falling.

@@ -32,7 +32,6 @@ pub fn run(
         return Err(gap);
     }
     let mut run = Run::new(scene, model, engine, observer)?;
-    run.start_body()?;
     while let Some(stage) = scene.stages.get(run.state.stage) {
         let left = scene.stages[run.state.stage..].iter().map(|s| s.duration).sum::<f64>();
         run.state.recorder.end = run.state.totals.time + left;
@@ -54,10 +53,15 @@ impl Run<'_> {
         let stage = &self.spun(stage)?;
         let State { totals, rim, recorder, .. } = &mut self.state;
         let start = totals.time;
-        rim.motion = rim.motion.next(stage, start, rim.at);
+        rim.motion = rim.motion.next(stage, start, rim.at, rim.rate);
         self.engine.begin_stage(&rim.motion.setup(stage.mass_damping))?;
+        // Mass and inertia belong to a component for as long as it is free.
+        totals.ledger.rim_set(rim.own_kinetic());
         let chatter = Chatter::new(self.around, start, stage.duration);
         recorder.begin(start, chatter, self.scene.output.snapshots);
+        if self.state.stage == 0 {
+            self.start_body()?;
+        }
         self.start_stage(stage.initial_velocity, start)?;
         if let Method::Implicit(settings) = stage.method {
             return self.implicit_stage(stage, &settings);

@@ -54,7 +54,7 @@ impl<'a> Run<'a> {
         let state = State {
             stage: 0,
             totals: Totals::start(stability::element_bound(model)?),
-            rim: RimState::at_rest(model.mesh.axle),
+            rim: RimState::at_rest(model.mesh.axle, scene.gravity),
             control: StepControl::new(negligible),
             recorder: Recorder::new(Chatter::new(None, 0.0, 1.0), negligible),
             settling: Settling::default(),

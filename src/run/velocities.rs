@@ -1,13 +1,14 @@
-//! Velocities that are set: the body's own at the start, the rim's at the start of a stage.
+//! Velocities that are set: the body's own at the start, with the rim's free components; the rim's at the start of a stage.
 
-use super::state::Run;
+use super::state::{Run, State};
 use crate::error::Result;
 use crate::physics::rim;
 use crate::scene::InitialVelocity;
 use glam::DVec3;
 
 impl Run<'_> {
-    /// The body's own initial velocity: v + omega x (x - centroid).
+    /// The body's own initial velocity, v + omega x (x - centroid), in the first stage. The rim is a part of the body: a free
+    /// component starts with the velocity that the axle's point has there, or with the turn about the axle.
     pub fn start_body(&mut self) -> Result<()> {
         let body = &self.scene.body;
         let (model, total) = (self.model, self.model.mass.iter().sum::<f64>());
@@ -18,7 +19,16 @@ impl Run<'_> {
         if v == DVec3::ZERO && omega == DVec3::ZERO {
             return Ok(());
         }
-        self.set_velocities(|x| v + omega.cross(x - centroid))
+        let field = |x: DVec3| v + omega.cross(x - centroid);
+        let rim = &mut self.state.rim;
+        let [x, y, z] = field(rim::axle(&rim.at)).to_array();
+        let rate = [x, y, z, 0.0, 0.0, omega.dot(rim::axle_direction(&rim.at))];
+        for (component, free) in rim.motion.setup(0.0).free.iter().enumerate() {
+            if free.is_some() {
+                rim.rate[component] = rate[component];
+            }
+        }
+        self.set_velocities(field)
     }
 
     /// The velocities that a stage begins with at `time`, if it sets any.
@@ -60,7 +70,9 @@ impl Run<'_> {
         self.engine.set_velocity(&v, &self.state.rim.rate)?;
         let square = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>();
         let kinetic = v.iter().zip(&self.model.mass).map(|(v, m)| 0.5 * m * square(v)).sum();
-        self.state.totals.ledger.velocities_set(kinetic);
+        let State { totals, rim, .. } = &mut self.state;
+        totals.ledger.velocities_set(kinetic);
+        totals.ledger.rim_set(rim.own_kinetic());
         self.state.control.before = 0.0;
         Ok(())
     }

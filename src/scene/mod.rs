@@ -76,7 +76,7 @@ pub struct Body {
     pub viscosity: Option<f64>,
     pub element: Element,
     pub lumping: Lumping,
-    /// Velocity of every node at t = 0 [m/s].
+    /// Velocity of every node, and of the rim's free components, at t = 0 [m/s].
     pub velocity: [f64; 3],
     /// Angular velocity at t = 0 about the body's centroid [rad/s].
     pub angular_velocity: [f64; 3],
@@ -264,6 +264,13 @@ pub struct RimMotion {
     pub spin: Drive,
 }
 
+impl RimMotion {
+    /// Components in the order of [`Coordinates`](crate::physics::rim::Coordinates).
+    pub fn drives(&self) -> [Drive; 6] {
+        [self.x, self.y, self.z, self.steer, self.camber, self.spin]
+    }
+}
+
 /// One component of the rim's motion. Units: m or rad, and s.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Drive {
@@ -276,7 +283,8 @@ pub enum Drive {
     /// Velocity, reached by a smooth ramp of `ramp` seconds (0: from the first step on).
     Velocity { to: f64, ramp: f64 },
     /// Free, with the rim's own `mass` [kg] (spin: inertia about the axle [kg m2]; the rim nodes' is added)
-    /// and an applied `load` [N] or [N m], reached by a smooth ramp from the last stage's load.
+    /// and an applied `load` [N] or [N m], reached by a smooth ramp from the last stage's load. The scene's body force pulls
+    /// on the mass of a translation, without a ramp.
     /// Translations and spin can be free; steer and camber cannot.
     Free { mass: f64, load: f64, ramp: f64 },
 }

@@ -31,7 +31,7 @@ use std::sync::Arc;
 
 type Check = fn(&Gpu);
 
-const CHECKS: [(&str, Check); 26] = [
+const CHECKS: [(&str, Check); 27] = [
     ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
     ("forces_as_pairs_are_the_cpus", forces::pairs),
     ("forces_of_every_numbering_are_the_cpus", forces::every_numbering),
@@ -42,6 +42,7 @@ const CHECKS: [(&str, Check); 26] = [
     ("an_elastic_wheel_rolls_as_on_the_cpu", rolling::elastic),
     ("an_axle_pressed_by_a_force_moves_as_on_the_cpu", rim::pressed_by_a_force),
     ("a_wheel_free_to_spin_turns_as_on_the_cpu", rim::free_to_spin),
+    ("a_block_and_its_rim_fall_together", rim::falls),
     ("a_rerun_is_the_same_to_the_bit", repeat::bit_identical),
     ("far_from_the_origin_forces_are_the_same", far::offset),
     ("the_frame_follows_a_fast_wheel", far::followed),

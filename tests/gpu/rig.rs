@@ -69,7 +69,7 @@ impl Plan {
         let [x, y, z] = model.mesh.axle;
         let rim = [x, y, z, 0.0, 0.0, 0.0];
         let stage = &scene.stages[0];
-        let motion = Motion::at_rest(rim).next(stage, 0.0, rim);
+        let motion = Motion::at_rest(rim, scene.gravity).next(stage, 0.0, rim, [0.0; 6]);
         let mut all = motion.plan(0.0, dt, 0.0, windows * steps + 1);
         let next = all.pop().expect("one more than the windows hold");
         let windows = all.chunks(steps).map(<[Step]>::to_vec).collect();

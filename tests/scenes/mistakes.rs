@@ -54,7 +54,7 @@ fn unknown_keys_are_answered_with_the_known_ones() {
         ("name = \"roll\"", "nam = \"roll\"", "stage.1.nam", "unknown key", "did you mean name?"),
         ("steer =", "stear =", "stage.1.rim.stear", "unknown key", "did you mean steer?"),
         ("\"50 g\"", "\"50 g\", colour = 1", "stage.1.rim.z.colour", "unknown key", "force, mass, ramp"),
-        ("ramp = \"1 ms\"", "mass = \"1 g\"", "stage.1.rim.x.mass", "unknown key", "velocity, ramp"),
+        ("ramp = \"1 ms\"", "mas = \"1 g\"", "stage.1.rim.x.mas", "unknown key", "velocity, ramp"),
         ("snapshots =", "snapshot =", "output.snapshot", "unknown key", "did you mean snapshots?"),
     ];
     UNKNOWN.into_iter().for_each(check);

@@ -6,7 +6,10 @@ use crate::physics::material::Kind;
 use crate::physics::parameters::Parameter;
 use crate::scene::reader::{Bound, Item, Later, Table};
 use crate::scene::units::{ANGLE, ANGULAR_VELOCITY, DENSITY, LENGTH, PRESSURE, VELOCITY, VISCOSITY};
-use crate::scene::{Body, Element, Grading, Law, Lumping, MeshSpec};
+use crate::scene::{
+    Body, Drive, Element, Grading, Implicit, ImplicitScheme, InitialVelocity, Law, Lumping, MeshSpec, Method,
+    Stage,
+};
 
 const HOURGLASS: f64 = 0.15;
 
@@ -47,6 +50,30 @@ pub(super) fn body(item: &Item) -> Result<Body> {
         velocity: table.vector_or_zero("velocity", &VELOCITY)?,
         angular_velocity: table.vector_or_zero("angular_velocity", &ANGULAR_VELOCITY)?,
     })
+}
+
+/// Refuses velocities at t = 0 that the first stage takes away before anything has moved.
+pub(super) fn check_start(item: &Item, body: &Body, first: &Stage) -> Result<()> {
+    let is_free = |d: &Drive| matches!(d, Drive::Free { .. });
+    let why = match (first.method, first.initial_velocity) {
+        (Method::Implicit(Implicit { scheme: ImplicitScheme::Static { .. }, .. }), _) => {
+            "nothing moves in the first stage, which is static"
+        }
+        (_, Some(InitialVelocity::Zero)) => "the first stage sets every velocity to zero",
+        // A free component of the rim takes its rate from the body.
+        (_, Some(InitialVelocity::Rim)) if !first.rim.drives().iter().any(is_free) => {
+            "the first stage sets every velocity to that of the rim"
+        }
+        _ => return Ok(()),
+    };
+    let table = item.table()?;
+    for (key, value) in [("velocity", body.velocity), ("angular_velocity", body.angular_velocity)] {
+        if value != [0.0; 3] {
+            let remedy = "remove the key, or let the first stage begin with it: explicit or dynamic, without initial_velocity";
+            return Err(table.at(key).error(why, remedy));
+        }
+    }
+    Ok(())
 }
 
 fn element(body: &Table) -> Result<Element> {

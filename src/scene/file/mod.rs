@@ -8,7 +8,7 @@
 //! title = "what it is"                # one line
 //! source = "where the case is from"   # default ""
 //! expected = "what should come out"   # default ""
-//! gravity = ["0 m/s2", "0 m/s2", "-9.81 m/s2"]   # body force per mass; default none
+//! gravity = ["0 m/s2", "0 m/s2", "-9.81 m/s2"]   # body force per mass, on the body and on the mass of a free rim; default none
 //!
 //! [body]
 //! density = "1100 kg/m3"              # in the reference shape, > 0
@@ -16,7 +16,7 @@
 //! hourglass = 0.15                    # default; hourglass stiffness over G, > 0; only with "uniform-gradient"
 //! mass_lumping = "row-sum"            # default: rho int N_a dV | "equal": an eighth of the element to each corner
 //! offset = ["0 mm", "0 mm", "0 mm"]   # moves the mesh before the start; default none
-//! velocity = ["0 m/s", "0 m/s", "0 m/s"]                  # of every node at t = 0; default none
+//! velocity = ["0 m/s", "0 m/s", "0 m/s"]                  # of every node, and of a free rim, at t = 0; default none
 //! angular_velocity = ["0 rad/s", "0 rad/s", "0 rad/s"]    # at t = 0, about the centroid; default none
 //!
 //! [body.mesh]
@@ -122,7 +122,8 @@
 //! [stage.rim]                         # needs [rim]; a component that is not named holds where it is
 //! x = { displacement = "1 mm", ramp = "20 ms" }   # from the start of the simulation; smooth ramp
 //! y = { velocity = "2.59 m/s", ramp = "5 ms" }    # ramp default 0: from the first step on
-//! z = { force = "-300 N", mass = "50 g", ramp = "20 ms" }  # free, with the rim's own mass > 0; ramp default 0
+//! z = { force = "-300 N", mass = "50 g", ramp = "20 ms" }  # free, with the rim's own mass > 0, which gravity pulls on
+//!                                     # besides; ramp of the force, default 0
 //! steer = { angle = "5 deg", ramp = "20 ms" }     # about z; or { velocity = "1 rad/s", ramp = .. }
 //! camber = { angle = "2 deg", ramp = "20 ms" }    # about the new x; the same
 //! spin = { velocity = "70 rad/s" }                # about the axle; or angle; or free:
@@ -228,6 +229,7 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
     let friction = table.get("friction").map(|item| world::friction(&item, road.is_some())).transpose()?;
     let section = table.section("stage", "[[stage]]")?;
     let stages = stage::stages(&section, rim.is_some(), road.as_ref(), body.offset)?;
+    body::check_start(&table.section("body", "[body]")?, &body, &stages[0])?;
     let output = output::output(&table.section("output", "[output]")?, &stages, road.is_some())?;
     let implicit = stages.iter().any(|s| matches!(s.method, super::Method::Implicit(_)));
     let scene = Scene {

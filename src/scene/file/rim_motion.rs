@@ -98,6 +98,9 @@ fn longitudinal_slip(table: &Table, limits: Limits) -> Result<Slip> {
 impl Component {
     fn read(&self, table: &Table, limits: Limits, place: Option<f64>) -> Result<Drive> {
         let given = self.given(table)?;
+        if given == self.position.0 || given == self.velocity.0 {
+            self.refuse_own(table)?;
+        }
         if given == self.position.0 {
             return self.displacement(table, limits, place);
         }
@@ -114,6 +117,16 @@ impl Component {
             mass: table.quantity(mass.0, mass.1, Bound::Positive)?,
             ramp: ramp(table, limits)?.unwrap_or(0.0),
         })
+    }
+
+    /// Refuses a mass or an inertia where it could change nothing.
+    fn refuse_own(&self, table: &Table) -> Result<()> {
+        let Some((load, own)) = self.free else { return Ok(()) };
+        let Some(item) = table.get(own.0) else { return Ok(()) };
+        Err(item.error(
+            format!("a motion that is prescribed needs no {}", own.0),
+            format!("remove the key, or write {} = .. in place of the motion", load.0),
+        ))
     }
 
     /// The one key that says what drives the component.

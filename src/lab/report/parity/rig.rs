@@ -39,7 +39,7 @@ impl Plan {
         let [x, y, z] = model.mesh.axle;
         let rim = [x, y, z, 0.0, 0.0, 0.0];
         let dt = 0.9 * stability::element_bound(&model)?;
-        let motion = Motion::at_rest(rim).next(&scene.stages[0], 0.0, rim);
+        let motion = Motion::at_rest(rim, scene.gravity).next(&scene.stages[0], 0.0, rim, [0.0; 6]);
         let mut steps = motion.plan(0.0, dt, 0.0, count + 1);
         let next = steps.pop().expect("one more than was asked for");
         let velocity = model.mesh.nodes.iter().copied().map(velocity).collect();
@@ -48,8 +48,8 @@ impl Plan {
 
     pub fn start(&self, engine: &mut dyn Engine) -> Result<()> {
         let stage = &self.scene.stages[0];
-        engine
-            .begin_stage(&Motion::at_rest([0.0; 6]).next(stage, 0.0, [0.0; 6]).setup(stage.mass_damping))?;
+        let at_rest = Motion::at_rest([0.0; 6], self.scene.gravity);
+        engine.begin_stage(&at_rest.next(stage, 0.0, [0.0; 6], [0.0; 6]).setup(stage.mass_damping))?;
         engine.set_velocity(&self.velocity, &[0.0; 6])
     }
 
