@@ -48,6 +48,14 @@ pub enum Error {
     )]
     Unbalanced { step: u64, time: f64, share: f64 },
 
+    /// The zero-energy modes of `uniform-gradient` have taken over, by the limit that the scene sets.
+    #[error(
+        "hourglass energy is {:.0} % of the strain energy after step {step} (t = {time:.6e} s), more than \
+         body.hourglass_limit = {limit}; everything up to here is kept. element = \"q1p0\" or \"full\", or a finer mesh, helps",
+        100.0 * share
+    )]
+    Hourglass { step: u64, time: f64, share: f64, limit: f64 },
+
     /// No adapter can run compute shaders.
     #[error(
         "no GPU adapter found ({detail}); install a Vulkan driver (Debian: mesa-vulkan-drivers) or use --engine cpu"
@@ -109,6 +117,7 @@ impl Error {
             Error::Inverted { .. }
             | Error::NotFinite { .. }
             | Error::Unbalanced { .. }
+            | Error::Hourglass { .. }
             | Error::NotSettled { .. }
             | Error::Claims { .. }
             | Error::Bench { .. } => 5,

@@ -93,6 +93,34 @@ impl Sample {
     );
 }
 
+/// Stored energy over the largest of the run below which shares of it are of no account: stresses are below half the largest.
+/// It is the ringing after an impact, say, in which a block that has landed flat has 6 % of hourglass energy while more is
+/// stored, and 18 % where a tenth is.
+const LITTLE: f64 = 0.25;
+
+impl Sample {
+    /// Strain and hourglass energy [J].
+    pub fn stored(&self) -> f64 {
+        self.strain_J + self.hourglass_J
+    }
+
+    /// Hourglass energy over strain energy, where the stored energy matters: it is a quarter of the `largest` of the run or
+    /// more, and more than `rounding` leaves of it ([`rounding_of_energy`]) [J]. `None` elsewhere, and without hourglass energy.
+    pub fn hourglass_share(&self, largest: f64, rounding: f64) -> Option<f64> {
+        let matters = self.stored() > rounding && self.stored() >= LITTLE * largest;
+        // A strain energy that is lost in rounding is not less than that.
+        (matters && self.hourglass_J > 0.0).then(|| self.hourglass_J / self.strain_J.max(rounding))
+    }
+}
+
+/// What rounding leaves of the stored energy of a body with a shear modulus G [Pa] and a volume V [m3], at most, in arithmetic with
+/// the spacing `epsilon` of numbers at 1 [J]: an energy density is a difference of numbers of the size of G. In single
+/// precision 880 elements that store nothing were found to store 0.4 epsilon G V; ten times that, which strains of some
+/// 1e-3 exceed (1e-7 in double precision).
+pub fn rounding_of_energy(shear_modulus: f64, volume: f64, epsilon: f64) -> f64 {
+    4.0 * epsilon * shear_modulus * volume
+}
+
 /// State of a node that can touch the road.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]

@@ -9,6 +9,7 @@ use super::format::{count, duration};
 use super::progress::Display;
 use super::recorder;
 use super::run::{Done, simulate, simulate_with};
+use super::warnings;
 use hexroll::engine::EngineInfo;
 use hexroll::gpu::{Gpu, GpuEngine, adapters, ensemble};
 use hexroll::model::Model;
@@ -162,6 +163,7 @@ pub fn run_together(cases: &[Case], engine: &EngineArgs) -> Result<Vec<Summary>>
     for (i, summary) in found.iter().enumerate() {
         if let Some(summary) = summary {
             eprintln!("{}: kept, {}", place(i), line(summary));
+            warn(&place(i), summary);
         }
     }
     let missing: Vec<usize> = (0..cases.len()).filter(|&i| found[i].is_none()).collect();
@@ -206,6 +208,7 @@ fn one(case: &Case, [number, of]: [usize; 2], jobs: usize) -> Result<Summary> {
     let place = format!("[{number}/{of}] {}", case.name);
     if let Some(summary) = case.finished() {
         eprintln!("{place}: kept, {}", line(&summary));
+        warn(&place, &summary);
         return Ok(summary);
     }
     let mut engine = case.engine.clone();
@@ -230,8 +233,16 @@ fn settled_run(place: &str, done: Result<Done>) -> Result<Summary> {
         }
         None => {
             eprintln!("{place}: done, {}", line(&done.summary));
+            warn(place, &done.summary);
             Ok(done.summary)
         }
+    }
+}
+
+/// Says what must not be lost among many runs.
+fn warn(place: &str, summary: &Summary) {
+    if let Some(warning) = warnings::among_many(summary) {
+        eprintln!("{place}: warning: {warning}");
     }
 }
 

@@ -15,7 +15,7 @@ use super::terminal;
 use super::{table, warnings};
 use hexroll::engine::EngineInfo;
 use hexroll::model::Model;
-use hexroll::output::summary::{StageMeans, Versions, WorstBalance};
+use hexroll::output::summary::{HourglassShare, StageMeans, Versions, WorstBalance};
 use hexroll::output::{RunWriter, Summary};
 use hexroll::run::{self, Totals};
 use hexroll::scene::Scene;
@@ -144,7 +144,8 @@ impl Report<'_> {
         let stages = StageMeans::of_run(scene, &recorder.history, &totals.noise, totals.free_radius);
         let mut warnings = warnings::of(scene, self.model);
         let stored_balance = WorstBalance::of_stored(&recorder.history);
-        warnings.extend(warnings::of_run(scene, &stages, &stored_balance));
+        let hourglass = HourglassShare::of(&recorder.history, totals.energy_rounding);
+        warnings.extend(warnings::of_run(scene, &stages, &stored_balance, hourglass.as_ref()));
         warnings.extend(error.map(|e| format!("the run did not finish: {e}")));
         // Of a run that took no step there is no smallest one.
         let known = |dt: f64| if dt.is_finite() { dt } else { 0.0 };
@@ -169,6 +170,7 @@ impl Report<'_> {
             element_updates_per_s: updates / computing,
             balance: WorstBalance::of(&recorder.history),
             stored_balance,
+            hourglass,
             errors: totals.estimate.into(),
             // + 0.0: no road was pierced is 0, not -0.
             worst_penetration_m: scene.road.map(|_| -totals.ledger.worst_gap + 0.0),

@@ -2,7 +2,7 @@
 
 use hexroll::model::Model;
 use hexroll::model::mesh::Ring;
-use hexroll::output::summary::{StageMeans, WorstBalance};
+use hexroll::output::summary::{HourglassShare, StageMeans, Summary, WorstBalance};
 use hexroll::output::{ContactScatter, Verdict};
 use hexroll::scene::{Drive, Element, Method, Scene};
 
@@ -111,11 +111,36 @@ fn coarse_ring(scene: &Scene, model: &Model) -> Vec<String> {
     warnings
 }
 
-/// Warnings that a run gives: energies that do not add up, stages that chatter or hum, and what helps.
-pub fn of_run(scene: &Scene, stages: &[StageMeans], stored: &WorstBalance) -> Vec<String> {
+/// Warnings that a run gives: energies that do not add up, hourglass modes, stages that chatter or hum, and what helps.
+pub fn of_run(
+    scene: &Scene,
+    stages: &[StageMeans],
+    stored: &WorstBalance,
+    hourglass: Option<&HourglassShare>,
+) -> Vec<String> {
     let named = stages.iter().filter_map(|s| Some((&s.stage, s.contact.as_ref()?)));
     let verdicts = named.filter_map(|(stage, contact)| verdict(scene, stage, contact));
-    unbalanced(scene, stored).into_iter().chain(verdicts).collect()
+    unbalanced(scene, stored).into_iter().chain(hourglass.and_then(hourglassed)).chain(verdicts).collect()
+}
+
+/// Hourglass energy over strain energy from which on it is worth a word: where hourglass modes are but a remedy, they hold some per
+/// cent.
+const HOURGLASS: f64 = 0.1;
+
+fn hourglassed(share: &HourglassShare) -> Option<String> {
+    (share.of_strain_energy > HOURGLASS).then(|| {
+        format!(
+            "hourglass energy comes to {:.0} % of the strain energy (t = {:.4e} s): the body deforms in modes that the element \
+             does not see, and stiffness and forces are not to be believed. element = \"q1p0\" or \"full\", or a finer mesh, helps",
+            100.0 * share.of_strain_energy,
+            share.time_s
+        )
+    })
+}
+
+/// What must be said of a run among many, beside its forces.
+pub fn among_many(summary: &Summary) -> Option<String> {
+    summary.hourglass.as_ref().and_then(hourglassed)
 }
 
 /// Largest stored-energy error over the largest term that is not worth a word: hard impacts leave some per cent, since their

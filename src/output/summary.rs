@@ -43,6 +43,10 @@ pub struct Summary {
     /// Energy balance by accumulated work, and by stored energy.
     pub balance: WorstBalance,
     pub stored_balance: WorstBalance,
+    /// Where hourglass energy was most beside the strain energy; none of an element without hourglass modes, or while
+    /// nothing to speak of is stored.
+    #[serde(default)]
+    pub hourglass: Option<HourglassShare>,
     /// Classes of the run's own errors in time and rounding, estimated.
     #[serde(default)]
     pub errors: Errors,
@@ -82,6 +86,30 @@ pub struct WorstBalance {
     /// That error over the largest energy or work, by magnitude, of the whole run.
     #[serde(deserialize_with = "number")]
     pub share_of_largest_term: f64,
+}
+
+/// The largest share of hourglass energy at a time when the stored energy matters ([`Sample::hourglass_share`]).
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct HourglassShare {
+    /// Hourglass energy over strain energy.
+    #[serde(deserialize_with = "number")]
+    pub of_strain_energy: f64,
+    /// When [s].
+    #[serde(deserialize_with = "number")]
+    pub time_s: f64,
+}
+
+impl HourglassShare {
+    /// Of a history; `rounding`: what rounding leaves of its stored energies [J].
+    pub fn of(history: &[Sample], rounding: f64) -> Option<HourglassShare> {
+        let most = history.iter().map(Sample::stored).fold(0.0, f64::max);
+        let share = |s: &Sample| {
+            let of_strain_energy = s.hourglass_share(most, rounding)?;
+            Some(HourglassShare { of_strain_energy, time_s: s.time_s })
+        };
+        let shares = history.iter().filter_map(share);
+        shares.max_by(|a, b| a.of_strain_energy.total_cmp(&b.of_strain_energy))
+    }
 }
 
 /// Means over the last 30 % of a stage's time.

@@ -38,6 +38,19 @@ impl Run<'_> {
         }
     }
 
+    /// Ends a run whose hourglass energy is beyond the limit that the scene sets.
+    pub fn holds_its_shape(&self, row: &Sample) -> Result<()> {
+        let (Some(limit), totals) = (self.scene.body.hourglass_limit, &self.state.totals) else {
+            return Ok(());
+        };
+        match row.hourglass_share(totals.ledger.largest_stored, totals.energy_rounding) {
+            Some(share) if share > limit => {
+                Err(Error::Hourglass { step: totals.steps, time: row.time_s, share, limit })
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Hands out a snapshot if one is due; whether it was.
     pub fn snapshots(&mut self, stage: &Stage, window: &Window, last: bool) -> Result<bool> {
         let output = &self.scene.output;

@@ -64,6 +64,7 @@ impl Run<'_> {
         }
         let row = self.book(stage, self.state.control.before, &window, &footprint)?;
         self.balanced(&row)?;
+        self.holds_its_shape(&row)?;
         Ok(window)
     }
 

@@ -179,6 +179,7 @@ impl<'a> Run<'a> {
         let footprint = Footprint::of(self.model, self.scene.road.as_ref(), length, &window);
         let row = self.book(stage, dt, &window, &footprint)?;
         self.state.recorder.unbalanced = row.stored_balance_error_J;
+        self.holds_its_shape(&row)?;
         Ok(window)
     }
 

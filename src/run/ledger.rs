@@ -22,6 +22,8 @@ pub struct Ledger {
     mixed_kinetic: f64,
     started: bool,
     strain_start: f64,
+    /// Largest stored energy so far [J]: what matters of it is told by that.
+    pub largest_stored: f64,
     /// Largest single term so far [J]: what errors are relative to.
     pub largest_term: f64,
     pub worst_balance: f64,
@@ -105,6 +107,7 @@ impl Ledger {
             works.friction,
         ];
         self.largest_term = terms.iter().fold(self.largest_term, |m, t| m.max(t.abs()));
+        self.largest_stored = self.largest_stored.max(w.strain + w.hourglass);
         self.worst_balance = self.worst_balance.max(balance.abs());
         self.worst_stored_balance = self.worst_stored_balance.max(stored.abs());
         let mut row = footprint.row();

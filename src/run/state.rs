@@ -11,6 +11,7 @@ use super::totals::Totals;
 use crate::engine::Engine;
 use crate::error::Result;
 use crate::model::Model;
+use crate::record::rounding_of_energy;
 use crate::scene::Scene;
 
 /// Stored energy that cannot change the critical step much, over shear modulus times volume: strains of half a per cent all
@@ -50,10 +51,12 @@ impl<'a> Run<'a> {
         observer: &'a mut dyn Observer,
     ) -> Result<Self> {
         let volume = model.mass.iter().sum::<f64>() / scene.body.density;
-        let negligible = NEGLIGIBLE * scene.body.law.shear_modulus() * volume;
+        let shear_modulus = scene.body.law.shear_modulus();
+        let negligible = NEGLIGIBLE * shear_modulus * volume;
+        let rounding = rounding_of_energy(shear_modulus, volume, engine.info().precision.epsilon());
         let state = State {
             stage: 0,
-            totals: Totals::start(stability::element_bound(model)?),
+            totals: Totals::start(stability::element_bound(model)?, rounding),
             rim: RimState::at_rest(model.mesh.axle, scene.gravity),
             control: StepControl::new(negligible),
             recorder: Recorder::new(Chatter::new(None, 0.0, 1.0), negligible),

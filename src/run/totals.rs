@@ -19,6 +19,8 @@ pub struct Totals {
     /// Of implicit stages: increments, cuts, Newton iterations, iterations or sweeps of the inner solver.
     pub implicit: ImplicitCounts,
     pub ledger: Ledger,
+    /// What rounding leaves of the stored energy, at most [J].
+    pub energy_rounding: f64,
     /// Scatter of the road's force in every stage that has ended; none in implicit stages, and without a road.
     pub noise: Vec<Option<ContactNoise>>,
     /// Free-rolling radius that the last longitudinal slip was related to, or that was measured since [m].
@@ -40,10 +42,11 @@ pub struct ImplicitCounts {
 }
 
 impl Totals {
-    /// Of a simulation that has not begun; `element_bound` is the critical step of single elements at rest [s].
-    pub(super) fn start(element_bound: f64) -> Totals {
-        let mut totals =
-            Totals { element_bound, dt_min: f64::INFINITY, critical_min: f64::INFINITY, ..Totals::default() };
+    /// Of a simulation that has not begun; `element_bound` is the critical step of single elements at rest [s],
+    /// `energy_rounding` what rounding leaves of the stored energy [J].
+    pub(super) fn start(element_bound: f64, energy_rounding: f64) -> Totals {
+        let (dt_min, critical_min) = (f64::INFINITY, f64::INFINITY);
+        let mut totals = Totals { element_bound, energy_rounding, dt_min, critical_min, ..Totals::default() };
         // The reference shape stores nothing.
         totals.ledger.start(0.0);
         totals

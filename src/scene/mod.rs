@@ -75,6 +75,8 @@ pub struct Body {
     /// Kelvin-Voigt shear viscosity [Pa s]; `None`: purely elastic, and no viscous code is composed.
     pub viscosity: Option<f64>,
     pub element: Element,
+    /// Hourglass energy over strain energy at which a run is ended, > 0; `None`: it goes on with a warning.
+    pub hourglass_limit: Option<f64>,
     pub lumping: Lumping,
     /// Velocity of every node, and of the rim's free components, at t = 0 [m/s].
     pub velocity: [f64; 3],

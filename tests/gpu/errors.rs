@@ -8,6 +8,7 @@ use hexroll::model::Model;
 use hexroll::record::{Sample, Snapshot};
 use hexroll::run::{Observer, Progress, stability};
 use hexroll::scene::Scene;
+use hexroll_lab::rig::{Recorder, simulate_on};
 
 /// Step, element, and whether a value is not finite (else: inverted).
 fn place(error: &Error) -> (u64, usize, bool) {
@@ -42,6 +43,25 @@ pub fn failures(gpu: &Gpu) {
         let model = Model::new(&scene).unwrap();
         not_finite(gpu, &scene, &model);
         inverted(gpu, &scene, &model);
+    }
+}
+
+/// A block thrown onto an edge: in either precision the run ends with the row that is beyond the limit.
+pub fn hourglass(gpu: &Gpu) {
+    let sets = [
+        "body.element=uniform-gradient",
+        "body.hourglass_limit=0.02",
+        "body.mesh.elements=[3, 3, 3]",
+        "road={ normal = [-1, -2, 2], point = [\"20 mm\", \"20 mm\", \"0 mm\"] }",
+    ];
+    let scene = scene("bouncing_block", &sets);
+    let model = Model::new(&scene).unwrap();
+    for who in [Who::Cpu64, Who::Gpu, Who::Plus] {
+        let mut kept = Recorder::default();
+        let result = simulate_on(&scene, &model, &mut *engine(gpu, who, &model, &scene), &mut kept);
+        let Err(Error::Hourglass { time, share, .. }) = result else { panic!("{who:?}: no such error") };
+        let last = kept.samples.last().unwrap();
+        assert_eq!((last.time_s, last.hourglass_J / last.strain_J), (time, share));
     }
 }
 

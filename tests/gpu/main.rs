@@ -31,7 +31,7 @@ use std::sync::Arc;
 
 type Check = fn(&Gpu);
 
-const CHECKS: [(&str, Check); 27] = [
+const CHECKS: [(&str, Check); 28] = [
     ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
     ("forces_as_pairs_are_the_cpus", forces::pairs),
     ("forces_of_every_numbering_are_the_cpus", forces::every_numbering),
@@ -53,6 +53,7 @@ const CHECKS: [(&str, Check); 27] = [
     ("timed_steps_are_the_steps", timing::passes),
     ("limits_of_the_adapter_are_measured", timing::limits),
     ("a_run_that_goes_wrong_says_where", errors::failures),
+    ("hourglass_energy_beyond_the_limit_ends_a_run", errors::hourglass),
     ("what_does_not_fit_is_refused", errors::limits),
     ("an_adapter_without_doubles_refuses_them", errors::no_doubles),
     ("what_wgpu_refuses_is_an_error", errors::device_errors),

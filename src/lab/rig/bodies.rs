@@ -48,6 +48,7 @@ pub fn body(mesh: MeshSpec) -> Body {
         law: RUBBER,
         viscosity: None,
         element: Element::Q1p0,
+        hourglass_limit: None,
         lumping: Lumping::RowSum,
         velocity: [0.0; 3],
         angular_velocity: [0.0; 3],

@@ -13,10 +13,11 @@ use crate::scene::{
 
 const HOURGLASS: f64 = 0.15;
 
-const KEYS: [&str; 9] = [
+const KEYS: [&str; 10] = [
     "density",
     "element",
     "hourglass",
+    "hourglass_limit",
     "mass_lumping",
     "offset",
     "velocity",
@@ -44,6 +45,7 @@ pub(super) fn body(item: &Item) -> Result<Body> {
         law,
         viscosity,
         element: element(&table)?,
+        hourglass_limit: table.get("hourglass_limit").map(|item| item.number(Bound::Positive)).transpose()?,
         lumping: table.get("mass_lumping").map_or(Ok(Lumping::RowSum), |item| {
             item.choice(&[("row-sum", Lumping::RowSum), ("equal", Lumping::Equal)], &[])
         })?,
@@ -83,15 +85,16 @@ fn element(body: &Table) -> Result<Element> {
         ("uniform-gradient", Element::UniformGradient { hourglass: HOURGLASS }),
     ];
     let element = body.get("element").map_or(Ok(Element::Q1p0), |item| item.choice(&names, &[]))?;
-    match (element, body.get("hourglass")) {
-        (Element::UniformGradient { .. }, Some(item)) => {
-            Ok(Element::UniformGradient { hourglass: item.number(Bound::Positive)? })
-        }
-        (_, Some(item)) => Err(item.error(
+    if let Element::UniformGradient { hourglass } = element {
+        let hourglass = body.number_or("hourglass", hourglass, Bound::Positive)?;
+        return Ok(Element::UniformGradient { hourglass });
+    }
+    match ["hourglass", "hourglass_limit"].into_iter().find_map(|key| body.get(key)) {
+        Some(item) => Err(item.error(
             "this element has no hourglass modes",
             "remove the key, or write element = \"uniform-gradient\"",
         )),
-        (element, None) => Ok(element),
+        None => Ok(element),
     }
 }
 

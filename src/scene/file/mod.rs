@@ -14,6 +14,8 @@
 //! density = "1100 kg/m3"              # in the reference shape, > 0
 //! element = "q1p0"                    # default | "full" | "uniform-gradient"
 //! hourglass = 0.15                    # default; hourglass stiffness over G, > 0; only with "uniform-gradient"
+//! hourglass_limit = 0.5               # default none; hourglass energy over strain energy, > 0, above which the run ends with
+//!                                     # an error (a warning comes from 0.1 on); only with "uniform-gradient"
 //! mass_lumping = "row-sum"            # default: rho int N_a dV | "equal": an eighth of the element to each corner
 //! offset = ["0 mm", "0 mm", "0 mm"]   # moves the mesh before the start; default none
 //! velocity = ["0 m/s", "0 m/s", "0 m/s"]                  # of every node, and of a free rim, at t = 0; default none

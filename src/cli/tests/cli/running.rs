@@ -106,3 +106,58 @@ fn the_shipped_pressed_block_runs_in_seconds() {
     // At rest the plate presses what the road carries; the means span the end of the settling: 1 %.
     assert!((press.mean_road_fz_N / -press.mean_rim_fz_N - 1.0).abs() < 0.01, "{press:?}");
 }
+
+/// A cantilever one element thick, which bends in hourglass modes.
+const BENT: &str = r#"title = "bent"
+gravity = ["0 m/s2", "0 m/s2", "-9.81 m/s2"]
+[body]
+density = "1100 kg/m3"
+element = "uniform-gradient"
+[body.mesh]
+generator = "block"
+size = ["100 mm", "20 mm", "20 mm"]
+elements = [10, 1, 1]
+[body.material]
+shear_modulus = "2.64 MPa"
+bulk_modulus = "65.1 MPa"
+[rim]
+nodes = "x-min"
+[[stage]]
+method = "explicit"
+duration = "20 ms"
+[output]
+sample = "1 ms"
+"#;
+
+/// Alone and among others, finished or ended by the limit: the warning is there, with what helps.
+#[test]
+fn hourglass_energy_is_named() {
+    let place = Place::new();
+    std::fs::write(place.path("bent.toml"), BENT).unwrap();
+    let named = |text: &str| {
+        text.contains("warning: hourglass energy comes to") || text.contains(": warning: hourglass energy")
+    };
+    let done = place.hexroll(&["run", "bent.toml", "--engine", "cpu"]).expect(0);
+    assert!(named(&done.stdout) && done.stdout.contains("element = \"q1p0\""), "{}", done.stdout);
+    let summary = read::summary(&place.path("runs/bent")).unwrap().unwrap();
+    let share = summary.hourglass.unwrap();
+    let history = read::history(&place.path("runs/bent")).unwrap();
+    let row = history.iter().find(|s| s.time_s == share.time_s).unwrap();
+    assert_eq!(row.hourglass_J / row.strain_J, share.of_strain_energy);
+
+    let over = ["--over", "body.hourglass=0.1,0.2", "--jobs", "1"];
+    let done = place.hexroll(&[&["sweep", "bent.toml", "--engine", "cpu"], &over[..]].concat()).expect(0);
+    assert_eq!(done.stderr.lines().filter(|l| named(l)).count(), 2, "{}", done.stderr);
+
+    let set = "body.hourglass_limit=0.5";
+    let done = place.hexroll(&["run", "bent.toml", "--engine", "cpu", "--set", set]).expect(5);
+    assert!(done.stderr.contains("body.hourglass_limit = 0.5"), "{}", done.stderr);
+    let kept = read::history(&place.path("runs/bent")).unwrap();
+    let summary = read::summary(&place.path("runs/bent")).unwrap().unwrap();
+    assert!(!kept.is_empty() && kept.len() < history.len() && !summary.finished);
+    assert_eq!(summary.hourglass.unwrap().time_s, kept.last().unwrap().time_s);
+
+    let element = "body.element=q1p0";
+    let done = place.hexroll(&["run", "bent.toml", "--engine", "cpu", "--set", element]).expect(0);
+    assert!(!named(&done.stdout), "{}", done.stdout);
+}
