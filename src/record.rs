@@ -186,6 +186,8 @@ pub struct ContactNoise {
     pub remaining: [f64; 3],
     /// Nodes that change their contact state from one step to the next, over touching nodes.
     pub changing_share: f64,
+    /// Class of the rounding error of forces at the end of the stage ([`Estimate::rounding`]).
+    pub rounding: Option<f64>,
 }
 
 /// A ring of N elements round the circumference is a polygon whose corners meet the road N times a turn: that is heard

@@ -145,7 +145,7 @@ impl Report<'_> {
         let mut warnings = warnings::of(scene, self.model);
         let stored_balance = WorstBalance::of_stored(&recorder.history);
         let hourglass = HourglassShare::of(&recorder.history, totals.energy_rounding);
-        warnings.extend(warnings::of_run(scene, &stages, &stored_balance, hourglass.as_ref()));
+        warnings.extend(warnings::of_run(scene, &stages, &stored_balance, hourglass.as_ref(), totals));
         warnings.extend(error.map(|e| format!("the run did not finish: {e}")));
         // Of a run that took no step there is no smallest one.
         let known = |dt: f64| if dt.is_finite() { dt } else { 0.0 };
@@ -171,6 +171,7 @@ impl Report<'_> {
             balance: WorstBalance::of(&recorder.history),
             stored_balance,
             hourglass,
+            round_off_J: totals.energy_round_off(),
             errors: totals.estimate.into(),
             // + 0.0: no road was pierced is 0, not -0.
             worst_penetration_m: scene.road.map(|_| -totals.ledger.worst_gap + 0.0),

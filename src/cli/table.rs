@@ -24,8 +24,12 @@ pub fn text(summary: &Summary, out: &Path, files: &str) -> String {
 
 fn lines(s: &Summary) -> Vec<(&'static str, String)> {
     let device = s.adapter.as_deref().map_or(format!("{} threads", s.threads), |a| format!("on {a}"));
-    let balance = |b: &WorstBalance| {
-        format!("{:.2e} J, {:.1e} of the largest term", b.worst_error_J, b.share_of_largest_term)
+    let balance = |b: &WorstBalance| match b.share_of_largest_term {
+        // A share of what is round-off too says nothing.
+        share if share > 1e-3 && b.worst_error_J <= s.round_off_J => {
+            format!("{:.2e} J, which is round-off", b.worst_error_J)
+        }
+        share => format!("{:.2e} J, {share:.1e} of the largest term", b.worst_error_J),
     };
     let mut lines = vec![
         ("engine", format!("{} {}, {device} ({})", s.engine, s.precision, s.engine_reason)),
@@ -155,6 +159,7 @@ fn scatter(c: &ContactScatter) -> String {
         Verdict::Smooth => "smooth",
         Verdict::Tone => "hums with the mesh",
         Verdict::Chattering => "CHATTERING",
+        Verdict::Rounding => "ROUNDING",
     };
     let tone = c
         .tone_Hz

@@ -4,6 +4,7 @@ use hexroll::model::Model;
 use hexroll::model::mesh::Ring;
 use hexroll::output::summary::{HourglassShare, StageMeans, Summary, WorstBalance};
 use hexroll::output::{ContactScatter, Verdict};
+use hexroll::run::Totals;
 use hexroll::scene::{Drive, Element, Method, Scene};
 
 /// Warnings that the scene and its mesh give without a run.
@@ -117,10 +118,11 @@ pub fn of_run(
     stages: &[StageMeans],
     stored: &WorstBalance,
     hourglass: Option<&HourglassShare>,
+    totals: &Totals,
 ) -> Vec<String> {
     let named = stages.iter().filter_map(|s| Some((&s.stage, s.contact.as_ref()?)));
     let verdicts = named.filter_map(|(stage, contact)| verdict(scene, stage, contact));
-    unbalanced(scene, stored).into_iter().chain(hourglass.and_then(hourglassed)).chain(verdicts).collect()
+    unbalanced(scene, stored, totals).into_iter().chain(hourglass.and_then(hourglassed)).chain(verdicts).collect()
 }
 
 /// Hourglass energy over strain energy from which on it is worth a word: where hourglass modes are but a remedy, they hold some per
@@ -147,16 +149,29 @@ pub fn among_many(summary: &Summary) -> Option<String> {
 /// highest frequencies are resolved by the safety factor alone.
 const UNBALANCED: f64 = 0.1;
 
-fn unbalanced(scene: &Scene, stored: &WorstBalance) -> Option<String> {
+/// What helps where rounding is the cause.
+const MORE_DIGITS: &str = "--precision f64, or f32+ on a GPU, has more digits";
+
+/// An error that is round-off is nobody's fault; one that rounding explains has no other cause.
+fn unbalanced(scene: &Scene, stored: &WorstBalance, totals: &Totals) -> Option<String> {
     let share = stored.share_of_largest_term;
-    (share > UNBALANCED).then(|| {
-        format!(
+    if !(share > UNBALANCED) || stored.worst_error_J <= totals.energy_round_off() {
+        return None;
+    }
+    Some(match totals.estimate.rounding {
+        Some(class) if class >= share => format!(
+            "stored energy and works differ by {:.0} % of the largest of them: rounding does as much to the forces of this \
+             body (estimated at {:.0} % of them), and the numbers are not to be believed. {MORE_DIGITS}",
+            100.0 * share,
+            100.0 * class
+        ),
+        _ => format!(
             "stored energy and works differ by {:.0} % of the largest of them: the steps are too long for what happens in \
              them, and the numbers are not to be believed. A smaller time_step.safety (here {}) helps, or windows \
              (output.sample) shorter than an impact, after which the critical step is looked at again",
             100.0 * share,
             scene.safety
-        )
+        ),
     })
 }
 
@@ -172,15 +187,36 @@ fn verdict(scene: &Scene, stage: &str, contact: &ContactScatter) -> Option<Strin
         )),
         Verdict::Chattering => Some(format!(
             "stage {stage:?} is chattering: from step to step the road's force scatters by {} of the normal force \
-             (limit {}), and {} of the touching nodes change their state; its means are not to be believed. {}",
+             (limit {}), and {} of the touching nodes change their state; {}. {}",
             percent(contact.remaining_share),
             percent(contact.limit),
             percent(contact.changing_share),
+            unbelievable(contact),
             match scene.body.viscosity {
                 None =>
                     "A viscosity helps (body.material.viscosity, for rubber of the order of 20 Pa s)".into(),
                 Some(eta) => format!("More viscosity may help (body.material.viscosity is {eta} Pa s)"),
             }
         )),
+        Verdict::Rounding => Some(format!(
+            "stage {stage:?} is rounded: from step to step the road's force scatters by {} of the normal force (limit {}), and \
+             rounding does as much to the forces of this body under this load; {}. {MORE_DIGITS}",
+            percent(contact.remaining_share),
+            percent(contact.limit),
+            unbelievable(contact),
+        )),
+    }
+}
+
+/// Which means of a stage whose force scatters are wrong. Where every node slides friction is mu times the normal force at
+/// each step, whose mean is the load: neither depends on which nodes touch. Where some stick, it does.
+fn unbelievable(contact: &ContactScatter) -> &'static str {
+    /// Sticking nodes that carry no more than this share of the normal force leave friction to the sliding ones.
+    const FEW: f64 = 0.01;
+    match contact.sticking_share {
+        Some(share) if share < FEW => {
+            "its contact area and pressures are not to be believed, the mean force is: all touching nodes slide"
+        }
+        _ => "its means are not to be believed",
     }
 }

@@ -14,8 +14,11 @@ pub enum Verdict {
     Smooth,
     /// The corners of a coarse ring mesh are heard: a matter of the mesh, periodic, without a mean.
     Tone,
-    /// Constant friction on a body with too little viscosity: the means are not to be believed.
+    /// Constant friction on a body with too little viscosity: nodes leave the road and come back, and what depends on
+    /// them is not to be believed.
     Chattering,
+    /// The scatter is no larger than what rounding does to forces: the precision is too low for this body and load.
+    Rounding,
 }
 
 /// Scatter of the road's force from step to step over the last 30 % of a stage; x, y, z.
@@ -45,6 +48,9 @@ pub struct ContactScatter {
     /// Nodes that change their contact state from one step to the next, over touching nodes.
     #[serde(deserialize_with = "number")]
     pub changing_share: f64,
+    /// Sticking over touching nodes in the same time; none of runs that did not note it.
+    #[serde(default)]
+    pub sticking_share: Option<f64>,
     /// Share above which a scatter is named.
     #[serde(deserialize_with = "number")]
     pub limit: f64,
@@ -67,7 +73,11 @@ impl ContactScatter {
         let tone_std_N = noise.tone.map_or([0.0; 3], |t| t.std);
         let (tone_share, remaining_share) = (share(tone_std_N), share(noise.remaining));
         let verdict = if remaining_share > limit {
-            Verdict::Chattering
+            if noise.rounding.is_some_and(|class| class >= remaining_share) {
+                Verdict::Rounding
+            } else {
+                Verdict::Chattering
+            }
         } else if tone_share > limit {
             Verdict::Tone
         } else {
@@ -86,6 +96,7 @@ impl ContactScatter {
             remaining_std_N: noise.remaining,
             remaining_share,
             changing_share: noise.changing_share,
+            sticking_share: None,
             limit,
         })
     }
@@ -119,6 +130,11 @@ mod tests {
         assert_eq!(verdict(14.9, 15.1, 0.05), Verdict::Chattering);
         assert_eq!(verdict(50.0, 15.1, 0.05), Verdict::Chattering, "chatter matters more");
         assert_eq!(verdict(50.0, 15.1, 0.2), Verdict::Smooth);
+        // Chatter has no cause beside the one that is as large as it.
+        let rounded = |rounding| ContactNoise { rounding, ..noise(0.0, 30.0) };
+        let verdict = |rounding| ContactScatter::of(&rounded(rounding), UP, 0.05).unwrap().verdict;
+        assert_eq!(verdict(Some(0.09)), Verdict::Chattering);
+        assert_eq!(verdict(Some(0.11)), Verdict::Rounding);
         // Sideways scatter counts against the normal force too.
         let sideways = ContactNoise { remaining: [0.0, 16.0, 0.0], ..noise(0.0, 0.0) };
         assert_eq!(ContactScatter::of(&sideways, UP, 0.05).unwrap().verdict, Verdict::Chattering);

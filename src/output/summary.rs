@@ -47,6 +47,9 @@ pub struct Summary {
     /// nothing to speak of is stored.
     #[serde(default)]
     pub hourglass: Option<HourglassShare>,
+    /// Energy that rounding alone makes: an error below it has no other cause, whatever its share [J].
+    #[serde(default)]
+    pub round_off_J: f64,
     /// Classes of the run's own errors in time and rounding, estimated.
     #[serde(default)]
     pub errors: Errors,
@@ -226,11 +229,22 @@ impl StageMeans {
             let end = &history[span.rows.end - 1];
             let normal = road.normal([end.axle_x_m, end.axle_y_m, end.axle_z_m]);
             mean.contact = noise.and_then(|n| ContactScatter::of(&n, normal, scene.output.chatter_limit));
+            if let Some(contact) = &mut mean.contact {
+                contact.sticking_share = sticking(&history[span.rows.clone()], mean.means_from_s);
+            }
             let radius = stage.slip.and(free_radius);
             mean.rolling = Rolling::of(history, &span, stage, road, radius);
         }
         means
     }
+}
+
+/// Sticking over touching nodes in the rows that end after `from`; none if none touches.
+fn sticking(rows: &[Sample], from: f64) -> Option<f64> {
+    let rows = || rows.iter().filter(|s| s.time_s > from);
+    let touching = rows().map(|s| s.contact_nodes).sum::<f64>();
+    let held = rows().map(|s| s.contact_nodes * s.sticking_share).sum::<f64>();
+    (touching > 0.0).then(|| held / touching)
 }
 
 /// Energies and works that a balance adds up.

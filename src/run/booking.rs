@@ -32,7 +32,7 @@ impl Run<'_> {
         let (recorder, totals) = (&self.state.recorder, &self.state.totals);
         let error = (row.stored_balance_error_J - recorder.unbalanced).abs();
         let share = error / totals.ledger.largest_term;
-        match error > recorder.negligible && share > GARBAGE {
+        match error > recorder.negligible.max(totals.energy_round_off()) && share > GARBAGE {
             true => Err(Error::Unbalanced { step: totals.steps, time: row.time_s, share }),
             false => Ok(()),
         }

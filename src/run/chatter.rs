@@ -198,6 +198,7 @@ impl Block {
                 .then(|| Tone { frequency: turned / length, std: [0, 1, 2].map(|d| root(heard(d))) }),
             remaining: [0, 1, 2].map(|d| root(of_squares(d) - explained(d))),
             changing_share: if self.touching > 0 { self.changes as f64 / self.touching as f64 } else { 0.0 },
+            rounding: None,
         }
     }
 }

@@ -39,16 +39,29 @@ pub fn rounding(model: &Model, precision: Precision, x: &[[f64; 3]], steps: u64)
     (stretch > 0.0 && stretch.is_finite()).then(|| lost / stretch)
 }
 
+/// Pairs of an element's corners that an edge joins: they differ in one coordinate.
+fn edges() -> Vec<[usize; 2]> {
+    let differ = |a: usize, b: usize| (0..3).filter(|&d| SIGNS[a][d] != SIGNS[b][d]).count();
+    (0..8).flat_map(|a| (0..a).map(move |b| [a, b])).filter(|&[a, b]| differ(a, b) == 1).collect()
+}
+
+fn length(x: &[[f64; 3]], a: u32, b: u32) -> f64 {
+    let [a, b] = [a, b].map(|n| x[n as usize]);
+    (0..3).map(|d| (a[d] - b[d]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Of all elements, in the reference shape [m].
+pub fn shortest_edge(model: &Model) -> f64 {
+    let edges = edges();
+    let of = |hex: &[u32; 8]| {
+        edges.iter().map(|&[a, b]| length(&model.mesh.nodes, hex[a], hex[b])).fold(f64::INFINITY, f64::min)
+    };
+    model.mesh.hexes.iter().map(of).fold(f64::INFINITY, f64::min)
+}
+
 /// Root mean square of the relative change of length over the elements' edges: blind to rigid motion.
 fn edge_stretch(model: &Model, x: &[[f64; 3]]) -> f64 {
-    // Edges join corners that differ in one coordinate.
-    let differ = |a: usize, b: usize| (0..3).filter(|&d| SIGNS[a][d] != SIGNS[b][d]).count();
-    let edges: Vec<[usize; 2]> =
-        (0..8).flat_map(|a| (0..a).map(move |b| [a, b])).filter(|&[a, b]| differ(a, b) == 1).collect();
-    let length = |x: &[[f64; 3]], a: u32, b: u32| {
-        let [a, b] = [a, b].map(|n| x[n as usize]);
-        (0..3).map(|d| (a[d] - b[d]).powi(2)).sum::<f64>().sqrt()
-    };
+    let edges = edges();
     let mut sum = 0.0;
     for hex in &model.mesh.hexes {
         for [a, b] in edges.iter().map(|edge| edge.map(|k| hex[k])) {

@@ -18,6 +18,7 @@ mod ledger;
 mod motion;
 mod observer;
 mod recorder;
+mod round_off;
 mod settle;
 pub mod stability;
 mod stages;
@@ -29,6 +30,7 @@ pub use booking::GARBAGE;
 pub use ledger::Ledger;
 pub use motion::Motion;
 pub use observer::{Observer, Progress};
+pub use round_off::RoundOff;
 pub use stages::run;
 pub use totals::{ImplicitCounts, Totals};
 

@@ -80,12 +80,8 @@ fn rounding_amplitude(stage: &Stage, control: &StepControl) -> f64 {
 }
 
 /// Net force that rounding the positions of this engine by up to `half_unit` leaves [N]: no residual can be asked to be
-/// smaller. Twice what moving every coordinate by half a unit in the last place does, one way or the other; 0 in double
-/// precision.
+/// smaller. Twice what moving every coordinate by half a unit in the last place does, one way or the other.
 fn rounding_force(model: &Model, half_unit: f64, engine: &mut dyn Engine) -> Result<f64> {
-    if half_unit == 0.0 {
-        return Ok(0.0);
-    }
     let mesh = &model.mesh;
     let x = engine.state()?.x;
     let still = vec![[0.0; 3]; x.len()];
@@ -102,19 +98,15 @@ fn rounding_force(model: &Model, half_unit: f64, engine: &mut dyn Engine) -> Res
     Ok(2.0 * free.map(square).sum::<f64>().sqrt())
 }
 
-/// Half a unit in the last place of the engine's positions [m]; 0 in double precision.
+/// Half a unit in the last place of the engine's positions [m].
 fn half_unit(model: &Model, engine: &dyn Engine) -> f64 {
-    let precision = engine.info().precision;
-    if !precision.is_single() {
-        return 0.0;
-    }
     let mesh = &model.mesh;
     let reach = |x: &[f64; 3]| (0..3).map(|d| (x[d] - mesh.axle[d]).abs()).fold(0.0, f64::max);
-    0.5 * precision.epsilon() * mesh.nodes.iter().map(reach).fold(0.0, f64::max)
+    0.5 * engine.info().precision.epsilon() * mesh.nodes.iter().map(reach).fold(0.0, f64::max)
 }
 
 /// Kinetic energy that rounding the positions keeps up [J]: no relaxation comes to less. Every node at the highest
-/// frequency, 2 / dt, with the amplitude that rounding keeps up; 0 in double precision.
+/// frequency, 2 / dt, with the amplitude that rounding keeps up.
 fn rounding_kinetic(model: &Model, control: &StepControl, half_unit: f64, amplitude: f64) -> f64 {
     let speed = 2.0 / control.critical() * half_unit * amplitude;
     0.5 * model.mass.iter().sum::<f64>() * speed * speed

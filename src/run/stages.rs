@@ -10,7 +10,7 @@ use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::physics::rim;
-use crate::record::Estimate;
+use crate::record::{ContactNoise, Estimate};
 use crate::scene::{Drive, Method, Scene, Stage};
 
 /// Index of the steer angle among the rim's coordinates.
@@ -36,10 +36,12 @@ pub fn run(
         let left = scene.stages[run.state.stage..].iter().map(|s| s.duration).sum::<f64>();
         run.state.recorder.end = run.state.totals.time + left;
         run.stage(stage)?;
+        let estimate = run.estimate(stage)?;
         let noise = run.state.recorder.chatter.noise();
+        let noise = noise.map(|noise| ContactNoise { rounding: estimate.rounding, ..noise });
         run.state.totals.noise.push(noise);
+        run.state.totals.estimate = estimate;
         run.measure_free_radius(stage);
-        run.state.totals.estimate = run.estimate(stage)?;
         if run.state.totals.interrupted {
             break;
         }
@@ -106,11 +108,12 @@ impl Run<'_> {
         if stage.is_quasi_static() {
             return Ok(Estimate { rounding, residual: Some(settling.residual()), time_step: None });
         }
-        let ledger = &totals.ledger;
-        let stored =
-            if ledger.largest_term > 0.0 { ledger.worst_stored_balance / ledger.largest_term } else { 0.0 };
         let changing = recorder.chatter.noise().map_or(0.0, |noise| noise.changing_share);
-        Ok(Estimate { rounding, residual: None, time_step: Some(estimate::time_step(stored, changing)) })
+        Ok(Estimate {
+            rounding,
+            residual: None,
+            time_step: Some(estimate::time_step(totals.stored_error_share(), changing)),
+        })
     }
 
     /// Keeps the free-rolling radius of a stage whose rim has spun freely without a moment.

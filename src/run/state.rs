@@ -5,6 +5,7 @@ use super::control::StepControl;
 use super::motion::RimState;
 use super::observer::Observer;
 use super::recorder::Recorder;
+use super::round_off::RoundOff;
 use super::settle::Settling;
 use super::stability;
 use super::totals::Totals;
@@ -54,9 +55,10 @@ impl<'a> Run<'a> {
         let shear_modulus = scene.body.law.shear_modulus();
         let negligible = NEGLIGIBLE * shear_modulus * volume;
         let rounding = rounding_of_energy(shear_modulus, volume, engine.info().precision.epsilon());
+        let round_off = RoundOff::of(scene, model, &engine.info());
         let state = State {
             stage: 0,
-            totals: Totals::start(stability::element_bound(model)?, rounding),
+            totals: Totals::start(stability::element_bound(model)?, rounding, round_off),
             rim: RimState::at_rest(model.mesh.axle, scene.gravity),
             control: StepControl::new(negligible),
             recorder: Recorder::new(Chatter::new(None, 0.0, 1.0), negligible),

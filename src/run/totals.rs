@@ -1,6 +1,7 @@
 //! What a simulation knows of itself as it goes, and when it is over.
 
 use super::ledger::Ledger;
+use super::round_off::RoundOff;
 use crate::record::{ContactNoise, Estimate};
 
 /// What a finished simulation knows of itself.
@@ -27,6 +28,8 @@ pub struct Totals {
     pub free_radius: Option<f64>,
     /// Classes of its own errors, as the last stage that has ended leaves them.
     pub estimate: Estimate,
+    /// Energy that rounding alone makes.
+    pub round_off: RoundOff,
     /// Whether an observer ended it.
     pub interrupted: bool,
 }
@@ -44,12 +47,29 @@ pub struct ImplicitCounts {
 impl Totals {
     /// Of a simulation that has not begun; `element_bound` is the critical step of single elements at rest [s],
     /// `energy_rounding` what rounding leaves of the stored energy [J].
-    pub(super) fn start(element_bound: f64, energy_rounding: f64) -> Totals {
-        let (dt_min, critical_min) = (f64::INFINITY, f64::INFINITY);
-        let mut totals = Totals { element_bound, energy_rounding, dt_min, critical_min, ..Totals::default() };
+    pub(super) fn start(element_bound: f64, energy_rounding: f64, round_off: RoundOff) -> Totals {
+        let mut totals = Totals {
+            element_bound,
+            energy_rounding,
+            round_off,
+            dt_min: f64::INFINITY,
+            critical_min: f64::INFINITY,
+            ..Totals::default()
+        };
         // The reference shape stores nothing.
         totals.ledger.start(0.0);
         totals
+    }
+
+    /// Energy that rounding alone has made so far [J].
+    pub fn energy_round_off(&self) -> f64 {
+        self.round_off.energy(self.steps)
+    }
+
+    /// Worst error of the stored-energy balance over the largest term; 0 where rounding alone makes as much.
+    pub fn stored_error_share(&self) -> f64 {
+        let Ledger { worst_stored_balance: error, largest_term, .. } = self.ledger;
+        if error > self.energy_round_off() { error / largest_term } else { 0.0 }
     }
 
     /// Books `count` steps of `dt` that end at `time`.

@@ -98,6 +98,7 @@ impl Study {
                     Verdict::Smooth => "smooth",
                     Verdict::Tone => "hums",
                     Verdict::Chattering => "**chattering**",
+                    Verdict::Rounding => "**rounding**",
                 };
                 format!(
                     "{verdict}, scatter {:.2} %, tone {:.2} %",

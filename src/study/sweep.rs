@@ -96,6 +96,7 @@ impl Sweep {
                 Some(Verdict::Smooth) => "smooth",
                 Some(Verdict::Tone) => "hums",
                 Some(Verdict::Chattering) => "**chattering**",
+                Some(Verdict::Rounding) => "**rounding**",
             };
             _ = writeln!(text, "| {verdict} |");
         }

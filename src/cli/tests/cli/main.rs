@@ -1,5 +1,6 @@
 //! The command line as a user meets it: the built program, its files, its messages, its exit codes.
 
+mod alarms;
 mod benching;
 mod checking;
 mod choosing;
