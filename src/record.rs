@@ -134,13 +134,13 @@ pub enum ContactState {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactNode {
     pub node: u32,
-    /// Force of the road on the node, mean over the last window [N].
+    /// Force of the road on the node, mean over the last window [N]: it belongs to [`Snapshot::mean_position`].
     pub force: [f64; 3],
-    /// Deformed tributary area [m2].
+    /// Deformed tributary area at the end of the window [m2].
     pub area: f64,
-    /// Normal force over area [Pa].
+    /// Mean normal force over that area [Pa].
     pub pressure: f64,
-    /// Tangential speed relative to the road [m/s].
+    /// Tangential speed relative to the road at the end of the window [m/s].
     pub slip_speed: f64,
     /// Energy that friction has dissipated at the node since the start [J].
     pub friction_energy: f64,
@@ -152,9 +152,11 @@ pub struct ContactNode {
 pub struct Snapshot {
     pub time: f64,
     pub step: u64,
+    /// Length of the window that ends here, over which the contact forces are means [s].
+    pub force_time: f64,
     /// Current positions [m], shape `[node_count]`.
     pub x: Vec<[f64; 3]>,
-    /// Half-step velocities [m/s], shape `[node_count]`.
+    /// Velocities half a step before `time` [m/s], shape `[node_count]`; those at `time` after implicit stages.
     pub v: Vec<[f64; 3]>,
     /// Every surface node of the mesh, in its order; empty without a road.
     pub contact: Vec<ContactNode>,
@@ -166,6 +168,14 @@ pub struct Snapshot {
     pub von_mises: Vec<f64>,
     /// Axle's position [m] and rotation matrix of the rim (rows), if there is a rim.
     pub axle: Option<([f64; 3], [[f64; 3]; 3])>,
+}
+
+impl Snapshot {
+    /// Mean position of a node over the window [m], by its velocity at the end: a quarter of acceleration times the square
+    /// of half the window off. After a static increment, which has no velocities, the position that its forces belong to.
+    pub fn mean_position(&self, node: usize) -> [f64; 3] {
+        std::array::from_fn(|d| self.x[node][d] - 0.5 * self.force_time * self.v[node][d])
+    }
 }
 
 /// The road's force step by step, over the last 30 % of an explicit stage.

@@ -5,17 +5,21 @@
 //! | points | `points` | current positions x [m] |
 //! | cells | `connectivity`, `offsets`, `types` | hexahedra (VTK type 12, whose corners are numbered as ours) |
 //! | point | `displacement` | x - X [m]; X comes back to round-off |
-//! | point | `velocity` | half-step velocity [m/s] |
+//! | point | `velocity` | half a step before the file's time [m/s] (at it after implicit stages) |
 //! | point | `node_set` | 0 inside, 1 surface (can touch the road), 2 rim |
-//! | point | `contact_force` | mean over the last window, road on node [N] |
-//! | point | `contact_pressure`, `contact_area`, `slip_speed` | [Pa], [m2], [m/s]; zero off the surface |
+//! | point | `contact_force` | mean over the last window, road on node [N]: half a window older than the points |
+//! | point | `contact_pressure`, `contact_area`, `slip_speed` | mean normal force over area [Pa], [m2], [m/s]; zero off the surface |
 //! | point | `friction_energy` | dissipated by friction at the node since the start [J]; zero off the surface |
 //! | point | `contact_state` | 0 free or off the surface, 1 sticks, 2 slips |
 //! | cell | `J`, `pressure`, `von_mises` | mean volume ratio [-], mean -tr(sigma)/3 [Pa], mean stress [Pa] |
 //! | field | `TimeValue`, `step` | time [s], step |
+//! | field | `force_time` | length of the window that the contact forces are means over [s] |
 //! | field | `stage` | name of the stage, UTF-8 bytes |
 //! | field | `axle_reference` | the mesh's axle point before the start [m] |
 //! | field | `axle`, `rim_rotation` | axle's position [m], rotation of the rim (rows); only with a rim |
+//!
+//! Forces of a window and points of its end do not belong together where the body moves: a node was
+//! at about x - v `force_time` / 2 when it had its mean force, and so was the axle (as in `contact_<k>.csv`).
 //!
 //! Without a road the contact arrays are missing. Numbers are `f64`: comparing runs needs every digit.
 
@@ -71,6 +75,7 @@ fn field_data<'a>(mesh: &'a Mesh, snapshot: &'a Snapshot, stage: &'a str) -> Vec
     let mut arrays = vec![
         Array::new(FieldData, "TimeValue", 1, vec![snapshot.time]),
         Array::new(FieldData, "step", 1, vec![snapshot.step]),
+        Array::new(FieldData, "force_time", 1, vec![snapshot.force_time]),
         Array::new(FieldData, "stage", 1, stage.as_bytes()),
         Array::new(FieldData, "axle_reference", 3, &mesh.axle[..]),
     ];
@@ -147,7 +152,13 @@ pub fn read(path: &Path) -> Result<Stored> {
     } else {
         None
     };
+    // Files of older versions do not say: their forces are taken as those of the end.
+    let force_time = match grid.has(FieldData, "force_time") {
+        true => grid.get(FieldData, "force_time", 1, Some(1))?[0],
+        false => 0.0,
+    };
     let snapshot = Snapshot {
+        force_time,
         time: grid.get(FieldData, "TimeValue", 1, Some(1))?[0],
         step: grid.get(FieldData, "step", 1, Some(1))?[0],
         v: vectors(&grid, PointData, "velocity", grid.points)?,

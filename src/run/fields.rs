@@ -44,7 +44,18 @@ pub fn snapshot(
         let r = rim::rotation(&window.rim).transpose().to_cols_array_2d();
         (rim::axle(&window.rim).to_array(), r)
     });
-    Snapshot { time, step, x: state.x, v: state.v, contact, volume_ratio, pressure, von_mises, axle }
+    Snapshot {
+        time,
+        step,
+        force_time: length,
+        x: state.x,
+        v: state.v,
+        contact,
+        volume_ratio,
+        pressure,
+        von_mises,
+        axle,
+    }
 }
 
 /// Volume mean of the Cauchy stress: sum_a f_a (x) x_a / v, since the force matrix times A^T is sigma det A.

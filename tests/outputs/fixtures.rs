@@ -46,6 +46,7 @@ pub fn snapshot(mesh: &Mesh, time: f64) -> Snapshot {
     Snapshot {
         time,
         step: 12_345_678_901,
+        force_time: 1e-3,
         x: nodes().map(|(i, X)| std::array::from_fn(|d| X[d] + 1e-3 * scramble(d, i))).collect(),
         v: nodes().map(|(i, _)| vector(10, i)).collect(),
         contact: mesh.surface.iter().enumerate().map(contact).collect(),
