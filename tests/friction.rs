@@ -68,6 +68,38 @@ fn touch(law: &Friction, v: [f64; 3]) -> Touch<f64> {
     touch_from(law, v, v)
 }
 
+/// Work of friction over a step that began with velocity `before`, as every work is booked: with the mean of the velocities
+/// before and after, each over half of its step.
+fn friction_work(t: &Touch<f64>, before: [f64; 3]) -> f64 {
+    let dt_before = 2.0 * STEP.dtm - STEP.dt;
+    dot(t.tangential_force, axpy(t.v, 0.5 * STEP.dt, before.map(|c| 0.5 * dt_before * c)))
+}
+
+/// On a resting road friction opposes the velocity after the step. So it takes energy, but from a node that turns round within
+/// the step: that one gets no more than the force times the half step it still went the other way.
+#[test]
+fn friction_gives_energy_only_where_a_node_turns_round() {
+    let mut random = Random::new(11);
+    let (mut losses, mut gains) = (0, 0);
+    for law in [Friction::Coulomb(Coulomb { mu: 0.8 }), VISCOUS, STRIBECK, FIT] {
+        for _ in 0..2000 {
+            let (before, mut v) = (random.vector(), random.vector());
+            v[2] = -v[2].abs();
+            let t = touch_from(&law, before, v);
+            let (force, work) = (t.tangential_force, friction_work(&t, before));
+            // Rounding of the three products of a dot product.
+            let rounding = 4.0 * f64::EPSILON * dot(force, force).sqrt();
+            assert!(dot(force, t.v) <= rounding, "{law:?} {before:?} {v:?}");
+            let back = dot(force, before).max(0.0);
+            assert!(work <= 0.5 * (2.0 * STEP.dtm - STEP.dt) * back + rounding * STEP.dt, "{law:?} {work}");
+            losses += u32::from(work < 0.0);
+            gains += u32::from(work > 0.0);
+        }
+    }
+    // Of velocities that have nothing to do with each other some turn round; fewer than half gain, since those also lose.
+    assert!(gains > 100 && losses > gains, "{gains} gains, {losses} losses");
+}
+
 /// A sliding node has friction mu(p, v) times its normal force at its own pressure and at the speed that remains;
 /// within the second order of the loss of speed in this step.
 #[test]
