@@ -200,10 +200,9 @@ fn verdict(scene: &Scene, stage: &str, contact: &ContactScatter) -> Option<Strin
         )),
         Verdict::Rounding => Some(format!(
             "stage {stage:?} is rounded: from step to step the road's force scatters by {} of the normal force (limit {}), and \
-             rounding does as much to the forces of this body under this load; {}. {MORE_DIGITS}",
+             rounding does as much to the forces of this body under this load; its means are not to be believed. {MORE_DIGITS}",
             percent(contact.remaining_share),
             percent(contact.limit),
-            unbelievable(contact),
         )),
     }
 }

@@ -122,7 +122,8 @@ fn a_sliding_block_that_chatters_is_named_with_what_is_wrong() {
     // 1100 kg/m3 of half a litre; a bouncing block's mean over 30 ms is its load within what it bounces.
     let load = 1100.0 * 5e-4 * 8.495709211125343;
     assert!((slide.mean_road_fz_N / load - 1.0).abs() < 0.01, "{}", slide.mean_road_fz_N);
-    assert!((slide.mean_road_fx_N / slide.mean_road_fz_N + 0.4).abs() < 1e-9);
+    // Coulomb's law; what slides aside by the way takes its part of it.
+    assert!((slide.mean_road_fx_N / slide.mean_road_fz_N + 0.4).abs() < 1e-4);
     assert!(slide.mean_contact_area_m2 < 0.95e-2, "{}", slide.mean_contact_area_m2);
     let [warning] = &summary.warnings[..] else { panic!("{:?}", summary.warnings) };
     assert!(warning.contains("\"slide\" is chattering") && warning.contains("contact area"), "{warning}");
