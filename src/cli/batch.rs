@@ -43,7 +43,7 @@ impl Case {
         engine: &EngineArgs,
         out: PathBuf,
     ) -> Result<Case> {
-        let text = std::fs::read_to_string(file).map_err(Error::io(file, "read the scene"))?;
+        let text = Scene::read_text(file)?;
         let file = file.to_string_lossy();
         let mut all: Vec<String> = vec!["output.pictures=[]".into(), "output.snapshots=stage-ends".into()];
         all.extend(sets.iter().cloned());

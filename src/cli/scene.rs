@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use hexroll::Result;
 use hexroll::scene::Scene;
-use hexroll::{Error, Result};
 
 /// A scene file with changes.
 #[derive(Debug, Args)]
@@ -20,7 +20,7 @@ pub struct SceneArgs {
 impl SceneArgs {
     /// The scene, and its text with the changes in it.
     pub fn load(&self) -> Result<(Scene, String)> {
-        let text = std::fs::read_to_string(&self.scene).map_err(Error::io(&self.scene, "read the scene"))?;
+        let text = Scene::read_text(&self.scene)?;
         let file = self.scene.to_string_lossy();
         Ok((Scene::parse(&text, &file, &self.sets)?, Scene::effective_text(&text, &file, &self.sets)?))
     }

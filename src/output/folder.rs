@@ -83,7 +83,7 @@ fn is_ours(name: &str) -> bool {
         || picture()
 }
 
-/// Writes a file so that it appears under its name only when it is complete.
+/// Writes a file so that it appears under its name only when it is complete; what a failure leaves is removed.
 pub fn write_whole(path: &Path, fill: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Result<()> {
     let part = PathBuf::from(format!("{}{PART}", path.display()));
     let write = || {
@@ -92,5 +92,9 @@ pub fn write_whole(path: &Path, fill: impl FnOnce(&mut dyn Write) -> std::io::Re
         file.flush()?;
         fs::rename(&part, path)
     };
-    write().map_err(Error::io(path, "write this file"))
+    write().map_err(|error| {
+        // Nothing to remove where not even this file could be made; the first failure is the one to tell.
+        _ = fs::remove_file(&part);
+        Error::io(path, "write this file")(error)
+    })
 }

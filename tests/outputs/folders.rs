@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use hexroll::output::folder::write_whole;
 use hexroll::output::{RunWriter, read};
 
 use crate::fixtures::*;
@@ -83,4 +84,26 @@ fn two_runs_do_not_share_a_folder() {
     drop(first);
     RunWriter::create(&dir, &mesh, None).unwrap();
     assert_eq!(read::history(&dir).unwrap(), []);
+}
+
+/// A write that fails, on the way or when the file gets its name, leaves neither the file nor a part of it.
+#[test]
+fn a_failed_write_leaves_nothing() {
+    let (_temp, dir) = folder();
+    fs::create_dir_all(&dir).unwrap();
+    let names = || fs::read_dir(&dir).unwrap().map(|e| e.unwrap().file_name()).collect::<Vec<_>>();
+    let full = || std::io::Error::from(std::io::ErrorKind::StorageFull);
+    let half = |out: &mut dyn std::io::Write| out.write_all(b"half").and_then(|()| Err(full()));
+    let error = write_whole(&dir.join("run.pvd"), half).unwrap_err();
+    assert!(error.to_string().contains("run.pvd") && !error.to_string().contains("part"), "{error}");
+    assert!(names().is_empty(), "{:?}", names());
+    // A folder stands under the name.
+    fs::create_dir(dir.join("summary.json")).unwrap();
+    write_whole(&dir.join("summary.json"), |out| out.write_all(b"{}")).unwrap_err();
+    assert_eq!(names(), ["summary.json"]);
+    // What was there whole stays.
+    write_whole(&dir.join("run.pvd"), |out| out.write_all(b"whole")).unwrap();
+    write_whole(&dir.join("run.pvd"), half).unwrap_err();
+    assert_eq!(fs::read(dir.join("run.pvd")).unwrap(), b"whole");
+    assert_eq!(names().len(), 2, "{:?}", names());
 }

@@ -190,11 +190,21 @@ impl Scene {
     /// [`Error::Io`] if the file cannot be read; [`Error::Scene`] with file, line, key, problem and remedy for
     /// everything that is wrong in it; [`Error::Unsupported`] for what comes in a later version.
     pub fn load(path: &Path, overrides: &[String]) -> Result<Scene> {
-        let text = std::fs::read_to_string(path).map_err(Error::io(path, "read the scene"))?;
+        let text = Scene::read_text(path)?;
         Scene::parse(&text, &path.to_string_lossy(), overrides)
     }
 
-    /// The same for a scene that is already in memory; `file` is its name in messages.
+    /// The text of a scene file.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the file cannot be read; [`Error::Scene`] with file, line and column, in bytes from 1, of the first
+    /// byte that is not UTF-8.
+    pub fn read_text(path: &Path) -> Result<String> {
+        let bytes = std::fs::read(path).map_err(Error::io(path, "read the scene"))?;
+        String::from_utf8(bytes).map_err(|error| not_utf8(error, path))
+    }
+
+    /// [`Scene::load`] of a scene that is already in memory; `file` is its name in messages.
     pub fn parse(text: &str, file: &str, overrides: &[String]) -> Result<Scene> {
         read(&effective(text, file, overrides)?, file)
     }
@@ -203,6 +213,20 @@ impl Scene {
     /// is taken of. It reads back as the same scene.
     pub fn effective_text(text: &str, file: &str, overrides: &[String]) -> Result<String> {
         Ok(document::canonical(&effective(text, file, overrides)?))
+    }
+}
+
+fn not_utf8(error: std::string::FromUtf8Error, path: &Path) -> Error {
+    let at = error.utf8_error().valid_up_to();
+    let bytes = error.as_bytes();
+    let before = &bytes[..at];
+    let line_start = before.iter().rposition(|&b| b == b'\n').map_or(0, |n| n + 1);
+    Error::Scene {
+        file: path.to_string_lossy().into(),
+        line: Some(1 + before.iter().filter(|&&b| b == b'\n').count()),
+        key: format!("byte {}", at - line_start + 1),
+        problem: format!("0x{:02X} is not UTF-8", bytes[at]),
+        remedy: "save the file as UTF-8, which TOML asks for".into(),
     }
 }
 

@@ -104,3 +104,22 @@ fn help_has_examples_and_the_exit_codes() {
         assert!(help.contains(&format!("  hexroll {command} ")), "no example in\n{help}");
     }
 }
+
+/// A degree sign in Latin-1: every command that reads a scene names file, line and byte.
+#[test]
+fn a_scene_that_is_not_utf8_is_answered_with_its_place() {
+    let place = Place::new();
+    let scene = place.scene("latin.toml", |text| text);
+    let mut bytes = std::fs::read(&scene).unwrap();
+    // The second line, after "# ".
+    let at = bytes.iter().position(|b| *b == b'\n').unwrap() + 1;
+    bytes.splice(at..at, *b"# \xb0\n");
+    std::fs::write(&scene, bytes).unwrap();
+    for command in
+        [&["run", "latin.toml"][..], &["check", "latin.toml"], &["study", "latin.toml", "--refine", "1,2"]]
+    {
+        let done = place.hexroll(command).expect(2);
+        let place = "error: latin.toml:2: byte 3: 0xB0 is not UTF-8; save";
+        assert!(done.stderr.contains(place), "{}", done.stderr);
+    }
+}
