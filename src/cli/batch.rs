@@ -177,7 +177,7 @@ pub fn run_together(cases: &[Case], engine: &EngineArgs) -> Result<Vec<Summary>>
         let reason = format!("asked for with --ensemble: {} runs at the same time", missing.len());
         let run = |(engine, (model, i)): (GpuEngine, (&Model, usize))| {
             let case = &cases[i];
-            let chosen = Chosen { engine: Box::new(engine), reason: reason.clone() };
+            let chosen = Chosen { engine: Box::new(engine), reason: reason.clone(), rate: None };
             let display = |elements, _: &EngineInfo, _: &str| Display::quiet(elements, &place(i));
             eprintln!("{}: runs in {}", place(i), case.out.display());
             settled_run(

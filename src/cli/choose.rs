@@ -122,6 +122,8 @@ pub struct Chosen {
     pub engine: Box<dyn Engine>,
     /// Why this one, in words.
     pub reason: String,
+    /// Its element updates per second on the scene, where they have been measured.
+    pub rate: Option<f64>,
 }
 
 /// Builds the engine that runs a scene.
@@ -134,20 +136,53 @@ pub fn choose(args: &EngineArgs, model: &Model, scene: &Scene) -> Result<Chosen>
     match candidates(args.engine, args.precision)? {
         Candidates { cpu: Some(precision), gpu: None } => {
             let reason = asked("--engine cpu");
-            Ok(Chosen { engine: cpu::engine(model, scene, precision, args.threads)?, reason })
+            let build = || cpu::engine(model, scene, precision, args.threads);
+            let rate = rate_of_a_long_run(model, scene, fastest_cpu(), build)?;
+            Ok(Chosen { engine: build()?, reason, rate })
         }
         Candidates { cpu: None, gpu: Some(precision) } => {
             let reason = match args.engine {
                 EngineChoice::Auto => "only the GPU engine has f32+".into(),
                 _ => asked("--engine gpu"),
             };
-            Ok(Chosen { engine: gpu(args.adapter.as_deref(), precision, model, scene)?, reason })
+            let gpu = Gpu::open(args.adapter.as_deref())?;
+            let build = || on_gpu(&gpu, precision, model, scene);
+            let rate = rate_of_a_long_run(model, scene, FASTEST_GPU, build)?;
+            Ok(Chosen { engine: build()?, reason, rate })
         }
         Candidates { cpu: Some(on_cpu), gpu: Some(on_gpu) } => {
             Competition { args, model, scene, on_cpu, on_gpu }.decide()
         }
         Candidates { cpu: None, gpu: None } => unreachable!("every precision has an engine"),
     }
+}
+
+/// More element updates and steps per second than a GPU of today takes.
+const FASTEST_GPU: [f64; 2] = [2e10, 2e5];
+
+/// The same of this machine's cores.
+fn fastest_cpu() -> [f64; 2] {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    [1e8 * cores as f64, 1e6]
+}
+
+/// A run that takes longer than this [s] at that pace is tried before it starts, so that its duration can be said: the try
+/// takes a second, of a run of minutes.
+const LONG: f64 = 20.0;
+
+/// Element updates per second of an engine that `build` makes for it, if the run is certain to be long.
+fn rate_of_a_long_run(
+    model: &Model,
+    scene: &Scene,
+    [updates, steps]: [f64; 2],
+    build: impl Fn() -> Result<Box<dyn Engine>>,
+) -> Result<Option<f64>> {
+    let planned = Steps::of(scene, model)?;
+    let least = planned.explicit as f64 * (model.element_count() as f64 / updates + 1.0 / steps);
+    if least < LONG {
+        return Ok(None);
+    }
+    estimate::rate(&mut *build()?, model, scene, planned.element_bound_s).map(Some)
 }
 
 /// The GPU engine on the best adapter, or on the one called `name`.
@@ -199,15 +234,25 @@ impl Competition<'_> {
             // Who names an adapter does not want the CPU instead: the error says what there is.
             None if name.is_some() => {
                 let engine = gpu(name, self.on_gpu, self.model, self.scene)?;
-                Ok(Chosen { engine, reason: "named with --adapter".into() })
+                Ok(Chosen { engine, reason: "named with --adapter".into(), rate: None })
             }
             None => self.cpu("no GPU adapter can be used"),
         }
     }
 
+    fn build_cpu(&self) -> Result<Box<dyn Engine>> {
+        cpu::engine(self.model, self.scene, self.on_cpu, self.args.threads)
+    }
+
+    /// The CPU engine, for a reason that did not need its rate.
     fn cpu(&self, reason: &str) -> Result<Chosen> {
-        let engine = cpu::engine(self.model, self.scene, self.on_cpu, self.args.threads)?;
-        Ok(Chosen { engine, reason: reason.into() })
+        let rate = rate_of_a_long_run(self.model, self.scene, fastest_cpu(), || self.build_cpu())?;
+        Ok(Chosen { engine: self.build_cpu()?, reason: reason.into(), rate })
+    }
+
+    /// The CPU engine, whose rate has been measured.
+    fn measured_cpu(&self, rate: f64, reason: String) -> Result<Chosen> {
+        Ok(Chosen { engine: self.build_cpu()?, reason, rate: Some(rate) })
     }
 
     fn open(&self, name: &str) -> Result<(Gpu, Box<dyn Engine>)> {
@@ -218,8 +263,14 @@ impl Competition<'_> {
 
     /// A real GPU without a race, unless it cannot be had.
     fn gpu_or_why_not(&self, name: &str) -> Result<Chosen> {
-        match self.open(name) {
-            Ok((_, engine)) => Ok(Chosen { engine, reason: self.why_at_once(name) }),
+        let chosen = || {
+            let gpu = Gpu::open(Some(name))?;
+            let build = || on_gpu(&gpu, self.on_gpu, self.model, self.scene);
+            let rate = rate_of_a_long_run(self.model, self.scene, FASTEST_GPU, build)?;
+            Ok(Chosen { engine: build()?, reason: self.why_at_once(name), rate })
+        };
+        match chosen() {
+            Ok(chosen) => Ok(chosen),
             Err(error) if self.args.adapter.is_some() => Err(error),
             Err(error) => self.cpu(&format!("{name} could not be used: {error}")),
         }
@@ -237,22 +288,26 @@ impl Competition<'_> {
         let steps = Steps::of(self.scene, self.model)?;
         let rate =
             |engine: &mut dyn Engine| estimate::rate(engine, self.model, self.scene, steps.element_bound_s);
-        let cpu_rate = rate(&mut *self.cpu("")?.engine)?;
+        let cpu_rate = rate(&mut *self.build_cpu()?)?;
         let cpu_text = format!("cpu {}: {}", self.on_cpu, updates(cpu_rate));
         let seconds = steps.seconds(self.model, cpu_rate);
         if seconds < worth_a_try(software) {
             let time = duration(seconds);
-            return self.cpu(&format!("{cpu_text}, about {time} in all: too short to try {name}"));
+            let reason = format!("{cpu_text}, about {time} in all: too short to try {name}");
+            return self.measured_cpu(cpu_rate, reason);
         }
         let (gpu, gpu_rate) = match self.open(name).and_then(|(gpu, mut e)| Ok((gpu, rate(&mut *e)?))) {
             Ok(measured) => measured,
-            Err(error) => return self.cpu(&format!("{cpu_text}; {name} could not be used: {error}")),
+            Err(error) => {
+                return self.measured_cpu(cpu_rate, format!("{cpu_text}; {name} could not be used: {error}"));
+            }
         };
         if cpu_rate >= gpu_rate {
-            return self.cpu(&format!("{cpu_text} against {} on {name}", updates(gpu_rate)));
+            let reason = format!("{cpu_text} against {} on {name}", updates(gpu_rate));
+            return self.measured_cpu(cpu_rate, reason);
         }
         let engine = on_gpu(&gpu, self.on_gpu, self.model, self.scene)?;
-        let rate = updates(gpu_rate);
-        Ok(Chosen { engine, reason: format!("gpu {}: {rate} on {name} against {cpu_text}", self.on_gpu) })
+        let reason = format!("gpu {}: {} on {name} against {cpu_text}", self.on_gpu, updates(gpu_rate));
+        Ok(Chosen { engine, reason, rate: Some(gpu_rate) })
     }
 }

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use super::format::{count, duration, si, updates};
 use hexroll::Result;
 use hexroll::engine::Engine;
 use hexroll::model::Model;
@@ -18,6 +19,9 @@ pub struct Steps {
     /// Steps of every stage; a quasi-static one may settle sooner.
     pub by_stage: Vec<u64>,
     pub total: u64,
+    /// Those of explicit and quasi-static stages: increments of implicit ones take a time of their own.
+    #[serde(skip)]
+    pub explicit: u64,
 }
 
 impl Steps {
@@ -33,13 +37,38 @@ impl Steps {
         };
         let by_stage: Vec<u64> = scene.stages.iter().map(steps).collect();
         let total = by_stage.iter().sum();
-        Ok(Steps { element_bound_s, dt_s, by_stage, total })
+        let is_explicit = |s: &Stage| !matches!(s.method, Method::Implicit(_));
+        let of_stage = scene.stages.iter().zip(&by_stage);
+        let explicit = of_stage.filter(|(s, _)| is_explicit(s)).map(|(_, n)| n).sum();
+        Ok(Steps { element_bound_s, dt_s, by_stage, total, explicit })
     }
 
     /// Wall time at a rate of element updates per second [s].
     pub fn seconds(&self, model: &Model, rate: f64) -> f64 {
         self.total as f64 * model.element_count() as f64 / rate
     }
+}
+
+/// Runs shorter than this [s] are not announced.
+const LONG: f64 = 180.0;
+
+/// What a long run is about to take, in a line; none of a shorter one.
+///
+/// # Errors
+/// Those of [`Steps::of`].
+pub fn announcement(scene: &Scene, model: &Model, rate: f64) -> Result<Option<String>> {
+    let steps = Steps::of(scene, model)?;
+    let seconds = steps.explicit as f64 * model.element_count() as f64 / rate;
+    let text = || {
+        format!(
+            "about {} at {}: {} steps of {} at most; Ctrl-C ends the run early and keeps everything",
+            duration(seconds),
+            updates(rate),
+            count(steps.explicit),
+            si(steps.dt_s, "s"),
+        )
+    };
+    Ok((seconds >= LONG).then(text))
 }
 
 /// Element updates per second of an engine that takes the first steps of the scene. The engine is used up: its state

@@ -57,7 +57,7 @@ impl Display {
         Display { name: format!("{name}: "), pause: LONG_PAUSE, elements, start, shown }
     }
 
-    /// A window has ended.
+    /// A window has ended, or steps within one have been taken.
     pub fn update(&mut self, progress: &run::Progress) {
         let share = (progress.time / progress.end).min(1.0);
         let text = status(progress, share, self.elements, self.start.elapsed().as_secs_f64());

@@ -17,7 +17,7 @@ pub fn listen_for_interrupts() -> Result<()> {
         if STOP.swap(true, Ordering::SeqCst) {
             std::process::exit(130);
         }
-        eprintln!("interrupted: ending this window and writing everything; again to end at once");
+        eprintln!("interrupted: ending here and writing everything; again to end at once");
     };
     ctrlc::set_handler(again).map_err(|e| {
         let source = std::io::Error::other(e);
@@ -64,6 +64,12 @@ impl Observer for Recorder<'_, '_> {
         self.display.update(progress);
         self.output += start.elapsed();
         Ok(())
+    }
+
+    fn advanced(&mut self, progress: &Progress) {
+        let start = Instant::now();
+        self.display.update(progress);
+        self.output += start.elapsed();
     }
 
     fn snapshot(&mut self, snapshot: &Snapshot, stage: &str) -> Result<()> {

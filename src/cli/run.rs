@@ -12,7 +12,7 @@ use super::progress::Display;
 use super::recorder::{Recorder, listen_for_interrupts};
 use super::scene::SceneArgs;
 use super::terminal;
-use super::{table, warnings};
+use super::{estimate, table, warnings};
 use hexroll::engine::EngineInfo;
 use hexroll::model::Model;
 use hexroll::output::summary::{HourglassShare, StageMeans, Versions, WorstBalance};
@@ -23,7 +23,7 @@ use hexroll::{Error, Result};
 
 pub const HELP: &str = "\
 Writes history.csv, snapshot_<k>.vtu, contact_<k>.csv, run.pvd, pictures and summary.json as it goes. Ctrl-C ends
-the run after the current window and keeps everything (exit code 130).
+the run within about a second and keeps everything: the window on its way is cut short (exit code 130).
 
 Examples:
   hexroll run scenes/lat100_straight.toml
@@ -54,11 +54,15 @@ pub fn execute(args: &RunArgs) -> Result<()> {
     listen_for_interrupts()?;
     let out = args.out();
     let title = scene.title.clone();
+    let model = choose::model(&args.engine, &scene)?;
+    let chosen = choose::choose(&args.engine, &model, &scene)?;
+    let announced = chosen.rate.map(|rate| estimate::announcement(&scene, &model, rate)).transpose()?;
     let display = |elements, info: &EngineInfo, reason: &str| {
         eprintln!("{title}\n{} {} ({reason})", info.engine, info.precision);
+        announced.flatten().into_iter().for_each(|line| eprintln!("{line}"));
         Display::new(elements)
     };
-    let done = simulate(&scene, &text, &args.engine, &out, display)?;
+    let done = simulate_with(chosen, (&scene, &text, &model), &out, display)?;
     let printed = terminal::print(&table::text(&done.summary, &out, &done.files));
     done.error.map_or(printed, Err)
 }
@@ -94,7 +98,7 @@ pub fn simulate(
 /// # Errors
 /// As [`simulate`].
 pub fn simulate_with(
-    Chosen { mut engine, reason }: Chosen,
+    Chosen { mut engine, reason, .. }: Chosen,
     (scene, text, model): (&Scene, &str, &Model),
     out: &Path,
     display: impl FnOnce(usize, &EngineInfo, &str) -> Display,

@@ -41,4 +41,6 @@ pub enum Failure {
         "the relaxation did not converge in {sweeps} sweeps: residual {residual:.1e} N (asked: {asked:.1e} N)"
     )]
     Relaxation { sweeps: usize, residual: f64, asked: f64 },
+    #[error("interrupted between two iterations")]
+    Interrupted,
 }

@@ -94,15 +94,16 @@ impl Newton {
         &self.log
     }
 
-    /// Solves an increment from `at`, the state at its start.
+    /// Solves an increment from `at`, the state at its start; `stop` is asked before every correction.
     pub fn solve(
         &mut self,
         problem: &Problem<'_>,
         inc: &Increment,
         at: Iterate,
+        stop: &dyn Fn() -> bool,
     ) -> Result<Converged, Failure> {
         let mut log = Vec::new();
-        let result = self.iterate(problem, inc, at, &mut log);
+        let result = self.iterate(problem, inc, at, stop, &mut log);
         self.log = log;
         result
     }
@@ -113,6 +114,7 @@ impl Newton {
         problem: &Problem<'_>,
         inc: &Increment,
         mut at: Iterate,
+        stop: &dyn Fn() -> bool,
         log: &mut Vec<Iteration>,
     ) -> Result<Converged, Failure> {
         let inverted = |element| Failure::Inverted { element };
@@ -136,6 +138,10 @@ impl Newton {
             if n == self.limits.iterations {
                 log.push(entry);
                 break;
+            }
+            if stop() {
+                log.push(entry);
+                return Err(Failure::Interrupted);
             }
             problem.tangent(inc, &at, &residual.v, &mut self.matrix);
             for (c, &node) in stiffness.iter_mut().zip(&problem.model.mesh.surface) {

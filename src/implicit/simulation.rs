@@ -152,9 +152,18 @@ impl<'a> Simulation<'a> {
 
     /// Takes an increment; on failure nothing has changed. The log has one entry an iteration.
     pub fn step(&mut self, target: &Target) -> Result<Vec<Iteration>, Failure> {
+        self.step_unless(target, &|| false)
+    }
+
+    /// The same unless `stop` says so between two iterations: then it fails as [`Failure::Interrupted`].
+    pub fn step_unless(
+        &mut self,
+        target: &Target,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Vec<Iteration>, Failure> {
         let increment = self.increment(target);
         let at = Iterate { x: self.x.clone(), q: self.q, status: self.status.clone() };
-        let done = self.newton.solve(&self.problem, &increment, at)?;
+        let done = self.newton.solve(&self.problem, &increment, at, stop)?;
         self.accept(target, &increment, done);
         Ok(self.newton.log().to_vec())
     }

@@ -19,12 +19,19 @@ impl Run<'_> {
         let (time, length) = (self.state.totals.time, self.state.recorder.force_time);
         let rim_kinetic = self.state.rim.motion.own_kinetic(&window.rim_rate);
         let at = WindowEnd { time, length, dt, stage: stage.name.clone(), rim_kinetic };
-        let row = self.state.totals.ledger.row(self.scene.road.as_ref(), &at, window, footprint);
-        let totals = &self.state.totals;
-        let end = self.state.recorder.end;
+        let State { totals, recorder, .. } = &mut self.state;
+        let row = totals.ledger.row(self.scene.road.as_ref(), &at, window, footprint, &recorder.scatter);
+        let (totals, end) = (&*totals, recorder.end);
         let progress = Progress { stage: &stage.name, time, end, steps: totals.steps, totals };
         self.observer.sample(&row, &progress)?;
         Ok(row)
+    }
+
+    /// Tells the observer that the steps so far, and `taken` more, have come to `time` within a window.
+    pub fn tell(&mut self, stage: &Stage, time: f64, taken: usize) {
+        let State { totals, recorder, .. } = &self.state;
+        let steps = totals.steps + taken as u64;
+        self.observer.advanced(&Progress { stage: &stage.name, time, end: recorder.end, steps, totals });
     }
 
     /// Ends a run whose energies do not add up: a step beyond the critical one need not turn an element inside out.

@@ -7,7 +7,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::engine::{StepContact, Window};
+use crate::engine::StepContact;
 use crate::record::{ContactNoise, Tone};
 
 /// Multiples of the node-passing frequency that are taken out.
@@ -54,14 +54,14 @@ impl Chatter {
         Chatter { sides, start, unit: duration, windows: 1, filled: 0, blocks: Vec::new() }
     }
 
-    /// Adds a window that began at `start` with the rim's spin angle at `spin` [s, rad]. Within a window the spin is
-    /// taken as steady.
-    pub fn add(&mut self, start: f64, end: f64, spin: [f64; 2], window: &Window) {
+    /// Adds the steps of a window, or of a piece of one, that began at `start` with the rim's spin angle at `spin`
+    /// [s, rad]. Within it the spin is taken as steady.
+    pub fn add(&mut self, start: f64, end: f64, spin: [f64; 2], steps: &[StepContact]) {
         let sides = self.sides.unwrap_or(0) as f64;
         let mut block = Block::new(start, end, spin);
-        let total: f64 = window.step_contact.iter().map(|s| s.dtm).sum();
+        let total: f64 = steps.iter().map(|s| s.dtm).sum();
         let mut passed = 0.0;
-        for step in &window.step_contact {
+        for step in steps {
             // A force at t(n) acts over half of the steps beside it.
             let share = (passed + 0.5 * step.dtm) / total;
             passed += step.dtm;
@@ -235,19 +235,6 @@ fn solve(matrix: &[[f64; UNKNOWNS]; UNKNOWNS], right: &[f64; UNKNOWNS], unknowns
     x
 }
 
-/// Standard deviation of the road's force over the steps of a window [N].
-pub fn deviation(steps: &[StepContact]) -> [f64; 3] {
-    let weight: f64 = steps.iter().map(|s| s.dtm).sum();
-    if weight <= 0.0 {
-        return [0.0; 3];
-    }
-    [0, 1, 2].map(|d| {
-        let mean = steps.iter().map(|s| s.dtm * s.force[d]).sum::<f64>() / weight;
-        let square = |s: &StepContact| s.dtm * (s.force[d] - mean).powi(2);
-        (steps.iter().map(square).sum::<f64>() / weight).sqrt()
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -268,8 +255,8 @@ mod tests {
                 touching: 20,
                 changes: u32::from(n.is_multiple_of(10)),
             };
-            let window = Window { step_contact: (0..77).map(step).collect(), ..Window::default() };
-            chatter.add(start, start + length, [OMEGA * start, OMEGA * (start + length)], &window);
+            let steps: Vec<StepContact> = (0..77).map(step).collect();
+            chatter.add(start, start + length, [OMEGA * start, OMEGA * (start + length)], &steps);
         }
         chatter
     }
@@ -328,19 +315,10 @@ mod tests {
         let mut chatter = Chatter::new(Some(44), 0.0, 1.0);
         assert_eq!(chatter.noise(), None);
         let step = StepContact { dtm: DT, force: [0.0, 0.0, 5.0], touching: 1, changes: 1 };
-        let window = Window { step_contact: vec![step], ..Window::default() };
-        chatter.add(0.0, DT, [0.0, 1.0], &window);
+        chatter.add(0.0, DT, [0.0, 1.0], &[step]);
         let noise = chatter.noise().unwrap();
         near("mean", noise.mean[2], 5.0, 1e-12);
         // The variance of one step is the round-off of 25: its root is up to 1e-7.
         near("rest", noise.remaining[2].max(noise.std[2]), 0.0, 1e-7);
-    }
-
-    #[test]
-    fn the_deviation_of_a_window_is_weighted_with_the_steps() {
-        let step = |dtm: f64, z: f64| StepContact { dtm, force: [0.0, 0.0, z], ..StepContact::default() };
-        // Mean (1 * 0 + 3 * 4) / 4 = 3, variance (9 + 3 * 1) / 4 = 3.
-        assert_eq!(deviation(&[step(1.0, 0.0), step(3.0, 4.0)]), [0.0, 0.0, 3.0_f64.sqrt()]);
-        assert_eq!(deviation(&[]), [0.0; 3]);
     }
 }

@@ -1,11 +1,17 @@
 //! Explicit and quasi-static stages: whole windows, made of steps.
 
+use std::time::Instant;
+
 use super::footprint::{self, Footprint};
 use super::state::{Run, State};
 use crate::engine::{Step, Window};
 use crate::error::Result;
 use crate::physics::rim;
 use crate::scene::Stage;
+
+/// Steps after which the contact of each is summed up and forgotten: 6 MB of them. Below it a window's figures have the
+/// bits of one sum over all of its steps.
+const REMEMBERED: usize = 1 << 17;
 
 impl Run<'_> {
     /// Runs the windows of a stage that starts now: until it is over, has settled, or is interrupted.
@@ -43,24 +49,30 @@ impl Run<'_> {
         settling.at_rest(stage, window, moving, control, self.model, self.engine)
     }
 
-    /// Steps to `end` and books the window.
+    /// Steps to `end`, or to where an interruption is seen, and books the window.
     fn window(&mut self, stage: &Stage, end: f64) -> Result<Window> {
-        self.state.recorder.force_time = 0.0;
-        let (start, spin) = (self.state.totals.time, self.state.rim.at[rim::SPIN]);
+        let State { totals, rim, recorder, .. } = &mut self.state;
+        recorder.begin_window(totals.time, rim.at[rim::SPIN]);
         let road = self.scene.road.as_ref();
-        let (mut whole, mut footprint) = (None, Footprint::default());
+        let (mut whole, mut footprint) = (None::<Window>, Footprint::default());
         while self.state.totals.time < end {
+            if let Some(whole) = whole.as_mut().filter(|w| w.step_contact.len() >= REMEMBERED) {
+                self.hear(whole);
+            }
             let before = self.state.recorder.force_time;
-            let part = self.part(end)?;
+            let part = self.part(stage, end)?;
             footprint.add(self.model, road, self.state.recorder.force_time - before, &part);
             match &mut whole {
                 None => whole = Some(part),
                 Some(whole) => whole.extend(part),
             }
+            if self.observer.interrupted() {
+                break;
+            }
         }
-        let window = whole.expect("a window has a step");
+        let mut window = whole.expect("a window has a step");
         if road.is_some() {
-            self.state.recorder.chatter.add(start, end, [spin, window.rim[rim::SPIN]], &window);
+            self.hear(&mut window);
         }
         let row = self.book(stage, self.state.control.before, &window, &footprint)?;
         self.balanced(&row)?;
@@ -68,18 +80,30 @@ impl Run<'_> {
         Ok(window)
     }
 
-    /// Steps on within a window that ends at `end`: to its end, or for as long as a footprint is one.
-    fn part(&mut self, end: f64) -> Result<Window> {
-        let start = self.state.totals.time;
-        let rim = &self.state.rim;
+    /// Takes down the contact of a window's steps so far, and forgets them.
+    fn hear(&mut self, window: &mut Window) {
+        let State { totals, rim, recorder, .. } = &mut self.state;
+        recorder.hear(totals.time, rim.at[rim::SPIN], &std::mem::take(&mut window.step_contact));
+    }
+
+    /// Steps on within a window that ends at `end`: to its end, for as long as a footprint is one, until there are many
+    /// steps to remember, or until an interruption is seen.
+    fn part(&mut self, stage: &Stage, end: f64) -> Result<Window> {
+        let State { totals, rim, .. } = &self.state;
+        let (start, first) = (totals.time, totals.steps);
         let spin = rim.rate[rim::SPIN].abs().max(rim.motion.rate_at(end)[rim::SPIN].abs());
         let parts = match self.scene.road {
             Some(_) => ((end - start) / footprint::part(self.around, spin) - 1e-9).ceil().max(1.0),
             None => 1.0,
         };
         let until = if parts > 1.0 { start + (end - start) / parts } else { end };
-        while self.state.totals.time < until {
-            self.advance_towards(end, until)?;
+        let full = |steps: u64| self.scene.road.is_some() && (steps - first) as usize >= REMEMBERED;
+        loop {
+            self.advance_towards(stage, end, until)?;
+            let totals = &self.state.totals;
+            if totals.time >= until || full(totals.steps) || self.observer.interrupted() {
+                break;
+            }
         }
         let State { totals, rim, control, .. } = &mut self.state;
         let next = rim.motion.plan(totals.time, control.before, control.before, 1)[0];
@@ -90,18 +114,34 @@ impl Run<'_> {
     }
 
     /// Takes equal steps that would end at `end`, as many as reach `until`, at most until the critical step is due to be
-    /// looked at again.
-    fn advance_towards(&mut self, end: f64, until: f64) -> Result<()> {
-        let State { totals, rim, control, recorder, .. } = &mut self.state;
+    /// looked at again, or until an interruption is seen.
+    fn advance_towards(&mut self, stage: &Stage, end: f64, until: f64) -> Result<()> {
+        let State { totals, rim, control, .. } = &mut self.state;
         control.refresh(self.engine, self.model, totals)?;
         let start = totals.time;
-        let taken = control.steps(self.scene.safety, end - start, until - start, totals.steps);
-        let steps = rim.motion.plan(start, taken.dt, control.before, taken.count);
-        self.engine.advance(&steps)?;
-        recorder.force_time += steps.iter().map(Step::dtm).sum::<f64>();
-        control.before = taken.dt;
-        let time = if taken.whole { end } else { start + taken.count as f64 * taken.dt };
-        totals.stepped(time, taken.dt, taken.count);
+        let planned = control.steps(self.scene.safety, end - start, until - start, totals.steps);
+        let steps = rim.motion.plan(start, planned.dt, control.before, planned.count);
+        let mut taken = 0;
+        let mut time = start;
+        while taken < steps.len() {
+            let piece = &steps[taken..steps.len().min(taken + self.pace.most())];
+            let begun = Instant::now();
+            self.engine.advance(piece)?;
+            self.pace.took(piece.len(), begun.elapsed());
+            taken += piece.len();
+            let whole = planned.whole && taken == steps.len();
+            time = if whole { end } else { start + taken as f64 * planned.dt };
+            if !whole {
+                self.tell(stage, time, taken);
+            }
+            if self.observer.interrupted() {
+                break;
+            }
+        }
+        let State { totals, control, recorder, .. } = &mut self.state;
+        recorder.force_time += steps[..taken].iter().map(Step::dtm).sum::<f64>();
+        control.before = planned.dt;
+        totals.stepped(time, planned.dt, taken);
         Ok(())
     }
 }

@@ -23,6 +23,15 @@ struct Progressing<'m> {
     residual: f64,
 }
 
+/// What came of an increment.
+enum Outcome {
+    Taken,
+    /// It is tried again with a shorter one.
+    Cut,
+    /// An interruption was seen between its iterations; the state is that before it.
+    Interrupted,
+}
+
 impl<'a> Run<'a> {
     /// Runs an implicit stage. A static one gives a row an increment, whose forces are those at its end, and ends when
     /// every ramp is over, unless something keeps moving.
@@ -44,26 +53,48 @@ impl<'a> Run<'a> {
             let length = if left < 1e-9 * (end - start) { left } else { on.lengths.next(left) };
             let whole = length == left;
             let time = if whole { window_end } else { self.state.totals.time + length };
-            if !self.increment(stage, &mut on, time, length)? {
+            let outcome = self.increment(stage, &mut on, time, length)?;
+            if matches!(outcome, Outcome::Interrupted) || self.observer.interrupted() {
+                self.end_early(stage, &mut on, window_start)?;
+                break;
+            }
+            if matches!(outcome, Outcome::Cut) {
                 continue;
             }
             if sample > 0.0 && !whole {
+                self.tell(stage, time, 0);
                 continue;
             }
             windows += 1;
             let window = self.close(stage, &mut on, time - window_start)?;
             window_start = time;
             self.snapshots(stage, &window, time == end)?;
-            if self.observer.interrupted() {
-                self.state.totals.interrupted = true;
-                break;
-            }
         }
         // The explicit engine starts from velocities at this moment.
         let State { totals, control, .. } = &mut self.state;
         control.before = 0.0;
         control.look_again(totals.steps);
         Ok(())
+    }
+
+    /// Ends an interrupted stage at its last increment: the window that began at `window_start` is cut short there.
+    fn end_early(&mut self, stage: &Stage, on: &mut Progressing<'_>, window_start: f64) -> Result<()> {
+        let length = self.state.totals.time - window_start;
+        let window = match length > 0.0 {
+            true => self.close(stage, on, length)?,
+            // Nothing since the last row, whose fields may not have been kept: the forces that stand there, for a second.
+            false => self.standing(on, 1.0)?,
+        };
+        self.snapshots(stage, &window, true)?;
+        self.state.totals.interrupted = true;
+        Ok(())
+    }
+
+    /// A window of the last converged state, as if it stood for `length` [s], with which the engine gets the state.
+    fn standing(&mut self, on: &mut Progressing<'_>, length: f64) -> Result<Window> {
+        self.hand_over(on)?;
+        self.state.recorder.force_time = length;
+        Ok(on.books.standing(&on.simulation, length, on.residual))
     }
 
     /// When the stage ends: with the ramps of a static one, if nothing moves on.
@@ -132,10 +163,16 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Tries an increment; `false`: it was cut.
-    fn increment(&mut self, stage: &Stage, on: &mut Progressing<'_>, time: f64, length: f64) -> Result<bool> {
+    /// Tries an increment.
+    fn increment(
+        &mut self,
+        stage: &Stage,
+        on: &mut Progressing<'_>,
+        time: f64,
+        length: f64,
+    ) -> Result<Outcome> {
         let target = self.target(stage, time, length);
-        match on.simulation.step(&target) {
+        match on.simulation.step_unless(&target, &|| self.observer.interrupted()) {
             Ok(log) => {
                 let newton = log.len() - 1;
                 on.lengths.converged(length, newton);
@@ -148,8 +185,9 @@ impl<'a> Run<'a> {
                 counts.inner += log.iter().map(|l| l.inner).sum::<usize>();
                 self.observer.increment(&rows(stage, [time, length], "converged", &log))?;
                 self.observer.note(&line(stage, time, length, &log))?;
-                Ok(true)
+                Ok(Outcome::Taken)
             }
+            Err(Failure::Interrupted) => Ok(Outcome::Interrupted),
             Err(failure) => {
                 self.state.totals.implicit.cuts += 1;
                 let cut = on.lengths.failed(length);
@@ -157,12 +195,11 @@ impl<'a> Run<'a> {
                 self.observer.increment(&rows(stage, [time, length], "failed", log))?;
                 self.observer.note(&format!("{}: increment to t = {time:.6e} s: {failure}", stage.name))?;
                 if cut {
-                    return Ok(false);
+                    return Ok(Outcome::Cut);
                 }
                 // The last converged state is the last row; its fields are kept too.
-                let window = on.books.standing(&on.simulation, length, on.residual);
+                let window = self.standing(on, length)?;
                 self.state.control.before = length;
-                self.hand_over(on)?;
                 self.snapshots(stage, &window, true)?;
                 Err(failed(stage, self.state.totals.time, &failure))
             }

@@ -1,7 +1,7 @@
 //! From windows to history rows: totals, balances, means.
 
-use super::chatter;
 use super::footprint::Footprint;
+use super::scatter::Scatter;
 use crate::engine::{Window, Works};
 use crate::physics::rim;
 use crate::record::Sample;
@@ -77,11 +77,18 @@ impl Ledger {
         (self.started, self.strain_start) = (true, strain);
     }
 
-    /// Books a window and makes its row; `footprint` was taken over its parts.
+    /// Books a window and makes its row; `footprint` and `scatter` were taken over its parts.
     ///
     /// The balances are those of the body, which the rim works on. The row's energies are those of body and rim: the work
     /// that was done on the rim's own mass, its change of kinetic energy, is added to both sides.
-    pub fn row(&mut self, road: Option<&Road>, end: &WindowEnd, w: &Window, footprint: &Footprint) -> Sample {
+    pub fn row(
+        &mut self,
+        road: Option<&Road>,
+        end: &WindowEnd,
+        w: &Window,
+        footprint: &Footprint,
+        scatter: &Scatter,
+    ) -> Sample {
         debug_assert!(self.started);
         self.rim_kinetic = end.rim_kinetic;
         let work_on_rim = self.rim_kinetic - self.rim_given;
@@ -111,14 +118,14 @@ impl Ledger {
         self.worst_balance = self.worst_balance.max(balance.abs());
         self.worst_stored_balance = self.worst_stored_balance.max(stored.abs());
         let mut row = footprint.row();
-        count_contact(&mut row, w);
+        count_contact(&mut row, w, scatter);
         if let Some(gap) = lowest_gap(road, w) {
             self.worst_gap = self.worst_gap.min(gap);
         }
         let mean = |i: f64| i / end.length;
         let road_impulse = |d: usize| w.surface.iter().map(|s| s.impulse[d]).sum::<f64>();
         [row.road_fx_N, row.road_fy_N, row.road_fz_N] = [0, 1, 2].map(|d| mean(road_impulse(d)));
-        [row.road_fx_std_N, row.road_fy_std_N, row.road_fz_std_N] = chatter::deviation(&w.step_contact);
+        [row.road_fx_std_N, row.road_fy_std_N, row.road_fz_std_N] = scatter.deviation();
         [row.rim_fx_N, row.rim_fy_N, row.rim_fz_N] = w.rim_impulse.map(mean);
         [row.rim_mx_Nm, row.rim_my_Nm, row.rim_mz_Nm] = w.rim_moment_impulse.map(mean);
         [row.axle_x_m, row.axle_y_m, row.axle_z_m] = [w.rim[0], w.rim[1], w.rim[2]];
@@ -147,7 +154,7 @@ impl Ledger {
 }
 
 /// Numbers and states of the touching nodes.
-fn count_contact(row: &mut Sample, w: &Window) {
+fn count_contact(row: &mut Sample, w: &Window, scatter: &Scatter) {
     let touching: u64 = w.surface.iter().map(|s| u64::from(s.touching)).sum();
     if touching == 0 {
         return;
@@ -155,10 +162,7 @@ fn count_contact(row: &mut Sample, w: &Window) {
     let sticking: u64 = w.surface.iter().map(|s| u64::from(s.sticking)).sum();
     row.contact_nodes = touching as f64 / w.steps as f64;
     row.sticking_share = sticking as f64 / touching as f64;
-    let steps = &w.step_contact;
-    let touched: u64 = steps.iter().map(|s| u64::from(s.touching)).sum();
-    let changes: u64 = steps.iter().map(|s| u64::from(s.changes)).sum();
-    row.changing_share = if touched > 0 { changes as f64 / touched as f64 } else { 0.0 };
+    row.changing_share = scatter.changing_share();
 }
 
 fn lowest_gap(road: Option<&Road>, w: &Window) -> Option<f64> {

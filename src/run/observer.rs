@@ -20,6 +20,9 @@ pub struct Progress<'a> {
 pub trait Observer {
     /// A window has ended.
     fn sample(&mut self, sample: &Sample, progress: &Progress) -> Result<()>;
+    /// Steps within a window have been taken; called about twice a second, or more often. `totals` are those of its parts
+    /// that have been booked.
+    fn advanced(&mut self, _progress: &Progress) {}
     /// Whole fields, as often as the scene asks.
     fn snapshot(&mut self, snapshot: &Snapshot, stage: &str) -> Result<()>;
     /// A line for the log: iterations of an implicit increment, and the like.
@@ -30,7 +33,7 @@ pub trait Observer {
     fn increment(&mut self, _iterations: &[NewtonRow]) -> Result<()> {
         Ok(())
     }
-    /// Asked after every window: end here, keeping everything.
+    /// Asked about twice a second, or more often: end here, keeping everything. The window on its way is cut short.
     fn interrupted(&self) -> bool {
         false
     }

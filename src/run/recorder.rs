@@ -1,12 +1,18 @@
 //! What is kept of a stage as it goes: the scatter of its forces, when a snapshot is due, what its balance began with.
 
 use super::chatter::Chatter;
+use super::scatter::Scatter;
+use crate::engine::StepContact;
 use crate::scene::Snapshots;
 
 /// What decides what is recorded next.
 #[derive(Debug, Clone)]
 pub struct Recorder {
     pub chatter: Chatter,
+    /// Scatter of the road's force in the window.
+    pub scatter: Scatter,
+    /// Time and spin angle up to which both know its steps [s, rad].
+    heard: [f64; 2],
     /// When the next snapshot is due [s]; never of a scene without intervals.
     next_snapshot: f64,
     /// Time over which the forces of the window acted [s]: its length, but for the half step after velocities were set.
@@ -21,16 +27,38 @@ pub struct Recorder {
 impl Recorder {
     pub fn new(chatter: Chatter, negligible: f64) -> Recorder {
         let next_snapshot = f64::INFINITY;
-        Recorder { chatter, next_snapshot, force_time: 0.0, end: 0.0, unbalanced: 0.0, negligible }
+        Recorder {
+            chatter,
+            scatter: Scatter::default(),
+            heard: [0.0; 2],
+            next_snapshot,
+            force_time: 0.0,
+            end: 0.0,
+            unbalanced: 0.0,
+            negligible,
+        }
     }
 
     /// For a stage that starts at `start` [s].
     pub fn begin(&mut self, start: f64, chatter: Chatter, snapshots: Snapshots) {
         self.chatter = chatter;
+        self.scatter = Scatter::default();
         self.next_snapshot = match snapshots {
             Snapshots::Every(interval) => start + interval,
             _ => f64::INFINITY,
         };
+    }
+
+    /// A window starts at `time` with the rim's spin angle at `spin` [s, rad].
+    pub fn begin_window(&mut self, time: f64, spin: f64) {
+        (self.force_time, self.scatter, self.heard) = (0.0, Scatter::default(), [time, spin]);
+    }
+
+    /// Takes down the contact of the window's next steps, which end at `time` with the rim's spin angle at `spin`.
+    pub fn hear(&mut self, time: f64, spin: f64, steps: &[StepContact]) {
+        let [start, before] = std::mem::replace(&mut self.heard, [time, spin]);
+        self.chatter.add(start, time, [before, spin], steps);
+        self.scatter.add(steps);
     }
 
     /// Whether whole fields are wanted of a window that ends at `time`, by its place or because it is the `last`; windows

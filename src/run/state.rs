@@ -4,6 +4,7 @@ use super::chatter::Chatter;
 use super::control::StepControl;
 use super::motion::RimState;
 use super::observer::Observer;
+use super::pace::Pace;
 use super::recorder::Recorder;
 use super::round_off::RoundOff;
 use super::settle::Settling;
@@ -27,6 +28,8 @@ pub struct Run<'a> {
     pub around: Option<usize>,
     pub engine: &'a mut dyn Engine,
     pub observer: &'a mut dyn Observer,
+    /// Of this machine, so it is no part of the state.
+    pub pace: Pace,
     pub state: State,
 }
 
@@ -65,6 +68,6 @@ impl<'a> Run<'a> {
             settling: Settling::default(),
         };
         let around = model.mesh.ring().map(|ring| ring.around);
-        Ok(Run { scene, model, around, engine, observer, state })
+        Ok(Run { scene, model, around, engine, observer, pace: Pace::default(), state })
     }
 }

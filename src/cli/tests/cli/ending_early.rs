@@ -146,6 +146,48 @@ mod interrupted {
         read::snapshot(&snapshots[0].path).unwrap();
     }
 
+    /// Steps of picoseconds: one window would take hours. The duration is said before, the state inside the window is shown and
+    /// kept.
+    #[test]
+    fn sigterm_inside_a_window_of_hours_keeps_what_there_is() {
+        let place = Place::new();
+        // At rest on the road: nothing happens for a second.
+        let still = |text: String| {
+            let moving = ["gravity = [", "velocity = ["];
+            let lines = text.lines().filter(|line| !moving.iter().any(|m| line.starts_with(m)));
+            lines
+                .collect::<Vec<_>>()
+                .join("\n")
+                .replace("\"2 Pa s\"", "\"1e9 Pa s\"")
+                .replace(" ms\"", " s\"")
+        };
+        let scene = place.scene("stiff.toml", still);
+        let args = ["run", scene.to_str().unwrap(), "--engine", "cpu", "--out", "out"];
+        let mut command = place.command(&args);
+        let running = Running(Some(command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()));
+        let begun = Instant::now();
+        while !place.path("out/history.csv").exists() {
+            assert!(begun.elapsed() < Duration::from_secs(120), "it does not start");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        std::thread::sleep(Duration::from_secs(2));
+        running.signal(Signal::TERM);
+        let done = running.wait(Duration::from_secs(60)).expect(130);
+        let announced = done.stderr.lines().find(|l| l.starts_with("about ")).unwrap_or_default();
+        assert!(announced.contains(" h ") && announced.contains(" steps of "), "{}", done.stderr);
+        assert!(done.stderr.contains("steps/s"), "progress is shown: {}", done.stderr);
+
+        let dir = place.path("out");
+        let history = read::history(&dir).unwrap();
+        let summary = read::summary(&dir).unwrap().unwrap();
+        assert_eq!(history.len(), 1);
+        assert!(history[0].time_s > 0.0 && history[0].time_s < 0.1, "{history:?}");
+        assert_eq!((summary.time_s, summary.finished), (history[0].time_s, false));
+        assert!(summary.steps > 100, "{}", summary.steps);
+        let snapshots = read::snapshots(&dir).unwrap();
+        assert_eq!(snapshots.iter().map(|s| s.time).collect::<Vec<_>>(), [summary.time_s]);
+    }
+
     #[test]
     fn a_killed_run_is_readable_but_has_no_summary() {
         let place = Place::new();
