@@ -7,6 +7,7 @@ mod forces;
 pub mod frame;
 pub mod memory;
 pub mod mesh;
+mod placement;
 pub mod shuffle;
 
 use crate::error::{Error, Result};
@@ -40,7 +41,7 @@ impl Model {
     ///
     /// # Errors
     /// [`Error::Memory`] if the body does not fit, before any of it is made; [`Error::Scene`] for a node set that the mesh does
-    /// not have, a rim that leaves nothing to deform, an inside-out element.
+    /// not have, a rim that leaves nothing to deform, an inside-out element, a body that begins inside the road.
     pub fn new(scene: &Scene) -> Result<Model> {
         crate::memory::ensure(scene, |scene| memory::body(scene).into())?;
         let mesh = meshed(scene)?;
@@ -99,7 +100,7 @@ impl Model {
     }
 }
 
-/// The mesh of a scene with its rim and holds.
+/// The mesh of a scene with its rim and holds, where the scene wants it.
 fn meshed(scene: &Scene) -> Result<Mesh> {
     let file = scene.file.display().to_string();
     let mut mesh = Mesh::graded(&scene.body.mesh, &scene.body.grading).moved(scene.body.offset);
@@ -115,7 +116,7 @@ fn meshed(scene: &Scene) -> Result<Mesh> {
         let unknown = |e: UnknownSet| nodes.unknown(&file, &format!("hold.{k}.nodes"), &e.known);
         mesh = mesh.with_held(&nodes.name, *components).map_err(unknown)?;
     }
-    Ok(mesh)
+    placement::placed(mesh, scene)
 }
 
 /// Sums of the corner masses by node.

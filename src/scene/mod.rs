@@ -69,6 +69,8 @@ pub struct Body {
     pub grading: Grading,
     /// Translation of the whole mesh before the start [m].
     pub offset: [f64; 3],
+    /// Whether the mesh is then moved along the road's normal until it touches the road.
+    pub on_road: bool,
     /// Mass density in the reference shape [kg/m3], > 0.
     pub density: f64,
     pub law: Law,

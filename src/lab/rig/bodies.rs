@@ -44,6 +44,7 @@ pub fn body(mesh: MeshSpec) -> Body {
         mesh,
         grading: Grading::default(),
         offset: [0.0; 3],
+        on_road: false,
         density: given::DENSITY,
         law: RUBBER,
         viscosity: None,

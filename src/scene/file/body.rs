@@ -13,13 +13,14 @@ use crate::scene::{
 
 const HOURGLASS: f64 = 0.15;
 
-const KEYS: [&str; 10] = [
+const KEYS: [&str; 11] = [
     "density",
     "element",
     "hourglass",
     "hourglass_limit",
     "mass_lumping",
     "offset",
+    "place",
     "velocity",
     "angular_velocity",
     "mesh",
@@ -32,7 +33,8 @@ const LATER_GENERATORS: [Later; 3] = [
     ("gmsh", "use generator = \"ring\" or \"block\""),
 ];
 
-pub(super) fn body(item: &Item) -> Result<Body> {
+/// `has_road`: whether there is one to be placed on.
+pub(super) fn body(item: &Item, has_road: bool) -> Result<Body> {
     let table = item.table()?;
     table.only(&KEYS, &[])?;
     let (law, viscosity) = material(&table.section("material", "[body.material]")?.table()?)?;
@@ -41,6 +43,7 @@ pub(super) fn body(item: &Item) -> Result<Body> {
         mesh: mesh(&mesh_table)?,
         grading: grading(&mesh_table)?,
         offset: table.vector_or_zero("offset", &LENGTH)?,
+        on_road: table.get("place").map_or(Ok(false), |item| placed_on_road(&item, has_road))?,
         density: table.quantity("density", &DENSITY, Bound::Positive)?,
         law,
         viscosity,
@@ -76,6 +79,14 @@ pub(super) fn check_start(item: &Item, body: &Body, first: &Stage) -> Result<()>
         }
     }
     Ok(())
+}
+
+fn placed_on_road(item: &Item, has_road: bool) -> Result<bool> {
+    let on_road = item.choice(&[("as-meshed", false), ("on-road", true)], &[])?;
+    match on_road && !has_road {
+        true => Err(item.error("the scene has no road", "add a section [road], or remove the key")),
+        false => Ok(on_road),
+    }
 }
 
 fn element(body: &Table) -> Result<Element> {

@@ -18,6 +18,7 @@
 //!                                     # an error (a warning comes from 0.1 on); only with "uniform-gradient"
 //! mass_lumping = "row-sum"            # default: rho int N_a dV | "equal": an eighth of the element to each corner
 //! offset = ["0 mm", "0 mm", "0 mm"]   # moves the mesh before the start; default none
+//! place = "as-meshed"                 # default | "on-road": then moved along the road's normal until it touches the road
 //! velocity = ["0 m/s", "0 m/s", "0 m/s"]                  # of every node, and of a free rim, at t = 0; default none
 //! angular_velocity = ["0 rad/s", "0 rad/s", "0 rad/s"]    # at t = 0, about the centroid; default none
 //!
@@ -240,7 +241,7 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
     let table = Item { file, key: String::new(), node: root }.table()?;
     table.only(&SECTIONS, &LATER)?;
     let text = |key| table.get(key).map_or(Ok(String::new()), |item| item.text().map(Into::into));
-    let body = body::body(&table.section("body", "[body]")?)?;
+    let body = body::body(&table.section("body", "[body]")?, table.get("road").is_some())?;
     let rim = table.get("rim").map(|item| world::rim(&item)).transpose()?;
     let road = table.get("road").map(|item| world::road(&item)).transpose()?;
     let gravity = table.vector_or_zero("gravity", &ACCELERATION)?;
