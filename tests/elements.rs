@@ -124,6 +124,42 @@ fn force_is_the_gradient_of_the_energy() {
     }
 }
 
+/// The power of an element that turns from `then` to `x` within a step, by velocities that are means over the step.
+struct Turned<'a> {
+    class: &'a Class<f64>,
+    then: &'a Corners<f64>,
+    x: &'a Corners<f64>,
+    dt: f64,
+}
+
+impl Compose for Turned<'_> {
+    type Output = f64;
+    fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, viscosity: V) -> f64 {
+        let v = std::array::from_fn(|a| std::array::from_fn(|d| (self.x[a][d] - self.then[a][d]) / self.dt));
+        F::force(&law, &viscosity.over(self.dt), self.class, self.x, &v).viscous_power
+    }
+}
+
+/// A deformed element, its hourglass modes too, that turns by any angle a step has no viscous power: below 1e-12 of eta w^2 V. (With the plain
+/// symmetric part of the velocity gradient it has (w dt)^2 / 3 of that.) Rounding: velocities have 1e-16 / (w dt) of their size,
+/// power its square.
+#[test]
+fn a_rigid_rotation_has_no_viscous_power() {
+    let mut random = Random::new(14);
+    for angle in [1e-4, 1e-3, 1e-2, 0.1, 1.0, 3.0] {
+        let X = distorted(&mut random);
+        let (c, shape, axis) = (class(&X), deformed(&mut random, &X), random.vector());
+        let at = |turn: f64| shape.map(|x| times(&rotation(axis, turn), x));
+        let dt = 1e-5;
+        for (element, law) in combinations() {
+            let composition = Composition { element, law, viscosity: Some(ETA) };
+            let power = composition.visit(Turned { class: &c, then: &at(0.3), x: &at(0.3 + angle), dt });
+            let share = power / (ETA * (angle / dt).powi(2) * EDGE.powi(3));
+            assert!(share.abs() < 1e-12, "{element:?} {law:?} by {angle}: {share:e}");
+        }
+    }
+}
+
 /// A viscous element's force does exactly the power it reports, which is never negative.
 #[test]
 fn viscous_power_is_the_work_of_the_viscous_force() {

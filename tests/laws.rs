@@ -3,7 +3,9 @@
 #![allow(non_snake_case)] // F, J, P: the field's own symbols
 
 use hexroll::physics::element::hex8;
-use hexroll::physics::material::{Hyperelastic, KelvinVoigt, MooneyRivlin, Viscosity, WithLaw, Yeoh};
+use hexroll::physics::material::{
+    Hyperelastic, KelvinVoigt, Moduli, MooneyRivlin, Viscosity, WithLaw, Yeoh, velocity_gradient,
+};
 use hexroll::physics::tensor::{Identity, Mat3, axpy, cofactor, det, dot};
 use hexroll::scene::Law;
 use hexroll_lab::rig::{EQ4, G, KAPPA, RUBBER, Random, TWO_CONSTANTS, close, laws, times};
@@ -213,7 +215,7 @@ const ETA: f64 = 20.0;
 /// (columns).
 fn viscous(A: &Mat3<f64>, L: &Mat3<f64>) -> (Mat3<f64>, f64) {
     let rate = A.map(|column| times(L, column));
-    let (sigma, power) = KelvinVoigt { eta: ETA }.stress(&rate, &cofactor(A), det(A), 1.0);
+    let (sigma, power) = KelvinVoigt::new(ETA).stress(&velocity_gradient(&rate, &cofactor(A)), det(A), 1.0);
     (sigma, power / det(A))
 }
 

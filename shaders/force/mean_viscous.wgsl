@@ -7,6 +7,11 @@ fn rate_offsets(v: Corners) -> Corners {
         vec3r(0.0), v.a1 - v.a0, v.a2 - v.a0, v.a3 - v.a0, v.a4 - v.a0, v.a5 - v.a0, v.a6 - v.a0, v.a7 - v.a0);
 }
 
+// u v^T
+fn outer(u: vec3r, v: vec3r) -> mat3x3r {
+    return mat3x3r(u * v.x, u * v.y, u * v.z);
+}
+
 // What a thread carries from one element of a chain to the next.
 struct End { x: Face, v: Rates }
 
@@ -18,11 +23,20 @@ fn element_force(low: End, high: End, shape: u32) -> ElementForce {
     let m = modes(offsets_of(low.x, high.x), shape);
     let d = modes(rate_offsets(rates_of(low.v, high.v)), shape);
     let s = mean_stress(m.f);
-    let v = viscous_stress(d.f, s.cof, s.j, 1.0);
+    let l = d.f * transpose(s.cof);
+    let v = viscous_stress(l, s.j, 1.0);
     let k = classes[shape].hourglass_stiffness;
     let c = classes[shape].hourglass_viscosity;
-    let r = Modes(m.f, k * m.h0 + c * d.h0, k * m.h1 + c * d.h1, k * m.h2 + c * d.h2, k * m.h3 + c * d.h3);
-    let q2 = dot(d.h0, d.h0) + dot(d.h1, d.h1) + dot(d.h2, d.h2) + dot(d.h3, d.h3);
-    let power = v.power * classes[shape].volume + c * q2;
-    return ElementForce(corner_forces(s.p + v.stress * s.cof, r, shape), s.j, power);
+    let t0 = turning(l, s.j, m.h0, d.h0);
+    let t1 = turning(l, s.j, m.h1, d.h1);
+    let t2 = turning(l, s.j, m.h2, d.h2);
+    let t3 = turning(l, s.j, m.h3, d.h3);
+    let r = Modes(m.f, k * m.h0 + c * t0, k * m.h1 + c * t1, k * m.h2 + c * t2, k * m.h3 + c * t3);
+    // Without this part of the stress, q x dq/dt would be a moment on the whole element.
+    let couple = outer(m.h0, t0) + outer(m.h1, t1) + outer(m.h2, t2) + outer(m.h3, t3);
+    let stress = v.stress + couple * (c / (classes[shape].volume * s.j));
+    let modes_power = dot(t0, d.h0) + dot(t1, d.h1) + dot(t2, d.h2) + dot(t3, d.h3);
+    let couple_power = (dot(couple[0], l[0]) + dot(couple[1], l[1]) + dot(couple[2], l[2])) * (1.0 / s.j);
+    let power = v.power * classes[shape].volume + c * (modes_power + couple_power);
+    return ElementForce(corner_forces(s.p + stress * s.cof, r, shape), s.j, power);
 }

@@ -13,7 +13,7 @@ fn load_end(nodes: vec4u) -> End {
 struct Pressure { stress: mat3x3r, power: real }
 
 fn pressed(p: real, cof: mat3x3r, det_a: real, rate: mat3x3r) -> Pressure {
-    let viscous = viscous_stress(rate, cof, det_a, WEIGHT);
+    let viscous = viscous_stress(rate * transpose(cof), det_a, WEIGHT);
     var stress = viscous.stress;
     stress[0][0] += p;
     stress[1][1] += p;

@@ -1,21 +1,26 @@
-// sigma_v = eta (L + L^T - 2/3 tr(L) I), L = (dA/dt) A^-1; twin of src/physics/material/viscosity.rs.
+// sigma_v = 2 eta dev D, 2 D = L + L^T - dt L^T L, L = (dA/dt) A^-1; twin of src/physics/material/viscosity.rs.
 
 override eta: real;
 
 // weight sigma_v and the power weight sigma_v : L det A.
 struct Viscous { stress: mat3x3r, power: real }
 
-fn viscous_stress(a_dot: mat3x3r, cof: mat3x3r, det_a: real, weight: real) -> Viscous {
-    // L det A, whose factor goes to eta.
-    let l = a_dot * transpose(cof);
+// From L det A, whose factor goes to eta.
+fn viscous_stress(l: mat3x3r, det_a: real, weight: real) -> Viscous {
     let factor = eta * weight / det_a;
-    let trace = l[0][0] + l[1][1] + l[2][2];
-    let mean = 0.6666666666666667 * trace;
+    let past = step.dt_before / det_a;
     let off = vec3r(l[0][1] + l[1][0], l[0][2] + l[2][0], l[1][2] + l[2][1]);
-    let s = factor * off;
-    let d = factor * vec3r(2.0 * l[0][0] - mean, 2.0 * l[1][1] - mean, 2.0 * l[2][2] - mean);
+    let s = factor * (off - past * vec3r(dot(l[0], l[1]), dot(l[0], l[2]), dot(l[1], l[2])));
+    let normal = 2.0 * vec3r(l[0][0], l[1][1], l[2][2]) - past * vec3r(dot(l[0], l[0]), dot(l[1], l[1]), dot(l[2], l[2]));
+    let mean = 0.3333333333333333 * (normal.x + normal.y + normal.z);
+    let d = factor * (normal - vec3r(mean));
     let power = d.x * l[0][0] + d.y * l[1][1] + d.z * l[2][2] + dot(s, off);
     return Viscous(mat3x3r(vec3r(d.x, s.x, s.y), vec3r(s.x, d.y, s.z), vec3r(s.y, s.z, d.z)), power);
+}
+
+// Rate of a vector q that turns with the body: dq/dt + L^T (q - dt dq/dt).
+fn turning(l: mat3x3r, det_a: real, q: vec3r, rate: vec3r) -> vec3r {
+    return rate + ((q - step.dt_before * rate) * l) * (1.0 / det_a);
 }
 
 // Velocities of a face's corners.

@@ -8,10 +8,10 @@ use super::program::Program;
 use super::rim::{Reaction, RimState};
 use super::sums::{contact_of, total};
 use super::team::{self, SpinBarrier};
-use crate::engine::{Probe, StepContact};
+use crate::engine::{Probe, Step, StepContact};
 use crate::kernels::Line;
 use crate::kernels::LineSums;
-use crate::kernels::elements::Failed;
+use crate::kernels::elements::{Failed, ViscousStep};
 use crate::kernels::{Arrays, Shared};
 use crate::physics::lanes::WIDEST;
 use crate::physics::scalar::Real;
@@ -63,6 +63,11 @@ impl Failure {
     }
 }
 
+/// What viscous elements need to know of a step.
+fn viscous(step: &Step, weight: f64) -> ViscousStep {
+    ViscousStep { before: step.dt_before, weight }
+}
+
 impl<T: Real> Program<T> {
     /// Takes the steps of `course` with all threads; `touching`: nodes that touched in the step before. Where it stops,
     /// some nodes of the step that failed have moved already.
@@ -91,7 +96,7 @@ impl<T: Real> Program<T> {
             // SAFETY: early, for a line of the share.
             let act = |line| unsafe { self.passes.nodes.step(&self.nodes, &c, line, shared, false) };
             // SAFETY: early.
-            failure.note(n, unsafe { self.early(member, shared, step.dtm(), act) });
+            failure.note(n, unsafe { self.early(member, shared, viscous(step, step.dtm()), act) });
             meeting.wait();
             if failure.stopped().is_some() {
                 return taken;
@@ -127,7 +132,7 @@ impl<T: Real> Program<T> {
             // SAFETY: early, for a line of the share.
             let act = |line| unsafe { self.passes.nodes.step(&self.nodes, &c, line, &shared, true) };
             // SAFETY: early.
-            unsafe { self.early(member, &shared, 0.5 * step.dt_before, act) };
+            unsafe { self.early(member, &shared, viscous(step, 0.5 * step.dt_before), act) };
             meeting.wait();
             // SAFETY: between.
             let reaction = unsafe { self.reaction(&shared, world.gravity, world.local(held)) };
@@ -157,7 +162,7 @@ impl<T: Real> Program<T> {
             // SAFETY: early, for a line of the share; in place of a step.
             let act = |line| unsafe { self.gather_line(line, &shared) };
             // SAFETY: early.
-            unsafe { self.early(member, &shared, 0.0, act) };
+            unsafe { self.early(member, &shared, ViscousStep::default(), act) };
             meeting.wait();
             // SAFETY: late, for a line of the share; in place of a step.
             self.late(member, |line| unsafe { self.gather_line(line, &shared) });
@@ -165,18 +170,23 @@ impl<T: Real> Program<T> {
     }
 
     /// A member's forces, and `act` on the lines that wait for no other member, each as soon as its forces are there;
-    /// `weight`: of viscous power.
     ///
     /// # Safety
     /// The caller is in the early phase of [`Shared`]'s contract.
-    unsafe fn early(&self, member: usize, shared: &Shared<T>, weight: f64, act: impl Fn(usize)) -> Failed {
+    unsafe fn early(
+        &self,
+        member: usize,
+        shared: &Shared<T>,
+        step: ViscousStep,
+        act: impl Fn(usize),
+    ) -> Failed {
         let mut failed = Failed(None);
         for task in &self.shares[member].early {
             match *task {
                 Task::Forces(item) => {
                     let item = item as usize;
                     // SAFETY: early, for an item of the share.
-                    let bad = unsafe { self.passes.elements.forces(&self.elements, item, shared, weight) };
+                    let bad = unsafe { self.passes.elements.forces(&self.elements, item, shared, step) };
                     failed.0 = [failed.0, bad.0].into_iter().flatten().min();
                 }
                 Task::Move(line) => act(line as usize),

@@ -256,6 +256,8 @@ shared! {
         load: [f64; 4],
         /// Its place in the submission.
         slot: u32,
+        /// Time before that of the positions over which the velocities are means [s].
+        dt_before: f64,
     }
 
     /// Reference geometry at a Gauss point: M = J0^-1 J0^-T (diagonal; xy, xz, yz), its volume and 1 / det J0.

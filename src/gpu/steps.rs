@@ -56,6 +56,7 @@ impl GpuEngine {
             rate2: rate[2],
             load: [step.load[0], step.load[1], step.load[2], step.load[rim::SPIN]],
             slot: slot as u32,
+            dt_before: step.dt_before,
         }
     }
 

@@ -1,6 +1,7 @@
 //! Internal forces at any positions, by the step's own element pass and in its own buffers: meanwhile the state is on
 //! the host, bit for bit, and goes back before anything else is asked for.
 
+use super::buffers::step_stride;
 use super::engine::GpuEngine;
 use super::layout::decode;
 use super::programs::element_groups;
@@ -14,6 +15,8 @@ impl GpuEngine {
         let Self { body, programs, .. } = self;
         body.write_positions(x);
         body.write_velocities(v, false)?;
+        // Velocities are those of the positions' time.
+        body.buffers.get("step").write(&body.gpu, &vec![0; step_stride(body.real())]);
         let mut read = Readback::default();
         // The gather pass writes where the velocities were: the element pass has read them.
         let forces = read.add(body.buffers.get("velocities"));

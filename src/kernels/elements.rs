@@ -24,13 +24,28 @@ pub struct Elements<T> {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Failed(pub Option<usize>);
 
+/// What viscous elements need to know of a step.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ViscousStep {
+    /// Time before that of the positions over which the velocities are means [s].
+    pub before: f64,
+    /// Weight of viscous power in the sums of items.
+    pub weight: f64,
+}
+
 /// An element pass, composed for one formulation, law and viscosity.
 pub trait ElementPass<T>: Send + Sync {
-    /// Corner forces of an item onto the slots of its lines; viscous power [W] times `weight` is added to the item's sums.
+    /// Corner forces of an item onto the slots of its lines; viscous power [W] times its weight is added to the item's sums.
     ///
     /// # Safety
     /// An item of the early phase of [`Shared`]'s contract.
-    unsafe fn forces(&self, elements: &Elements<T>, item: usize, shared: &Shared<T>, weight: f64) -> Failed;
+    unsafe fn forces(
+        &self,
+        elements: &Elements<T>,
+        item: usize,
+        shared: &Shared<T>,
+        step: ViscousStep,
+    ) -> Failed;
 
     /// The numbers of a class that it reads: [`Formulation::NUMBERS`].
     fn numbers(&self) -> Range<usize>;
@@ -77,8 +92,14 @@ impl<T: Real, F: Formulation, L: Hyperelastic, V: Viscosity, I: Instructions> El
         F::NUMBERS
     }
 
-    unsafe fn forces(&self, elements: &Elements<T>, item: usize, shared: &Shared<T>, weight: f64) -> Failed {
-        let Composed { law, viscosity, .. } = *self;
+    unsafe fn forces(
+        &self,
+        elements: &Elements<T>,
+        item: usize,
+        shared: &Shared<T>,
+        step: ViscousStep,
+    ) -> Failed {
+        let (law, viscosity, weight) = (self.law, self.viscosity.over(step.before), step.weight);
         let kind = PhantomData::<F>;
         self.instructions.call(Pass { law, viscosity, elements, item, shared, weight, kind })
     }

@@ -59,7 +59,7 @@ impl<F: Formulation, W: Compose> WithLaw for WithFormulation<F, W> {
     fn with<L: Hyperelastic>(self, law: L) -> W::Output {
         match self.viscosity {
             None => self.work.with::<F, L, Inviscid>(law, Inviscid),
-            Some(eta) => self.work.with::<F, L, KelvinVoigt>(law, KelvinVoigt { eta }),
+            Some(eta) => self.work.with::<F, L, KelvinVoigt>(law, KelvinVoigt::new(eta)),
         }
     }
 }

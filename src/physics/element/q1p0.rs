@@ -1,6 +1,6 @@
 use super::hex8::{self, Corners, Shape};
 use super::{Class, Energy, Force, Formulation};
-use crate::material::{Hyperelastic, Viscosity};
+use crate::material::{Hyperelastic, Viscosity, velocity_gradient};
 use crate::scalar::Scalar;
 use crate::tensor::{InPlane, Mat3, Metric, Sym3, Vec3, axpy, cofactor, combined, det, dot, scale};
 use std::ops::Range;
@@ -168,7 +168,7 @@ fn point<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>, M: Metric<S>, co
     let pressure = (d.wj + if POINTWISE { law.dU(j) } else { mean }) * weight;
     let mut stress = [[zero; 3]; 3];
     if V::ON {
-        let (viscous, point_power) = viscosity.stress(&rate, &cof, det_a, weight);
+        let (viscous, point_power) = viscosity.stress(&velocity_gradient(&rate, &cof), det_a, weight);
         *power += point_power;
         stress = hex8::with_pressure(viscous, pressure);
     }

@@ -1,6 +1,6 @@
 use super::hex8::{self, Corners, HOURGLASS, Shape};
 use super::{Class, Energy, Force, Formulation};
-use crate::material::{Hyperelastic, Viscosity};
+use crate::material::{Hyperelastic, Viscosity, velocity_gradient};
 use crate::scalar::Scalar;
 use crate::tensor::{Identity, Mat3, Vec3, add, axpy, cofactor, combined, det, dot, neg, scale, sub};
 use std::ops::Range;
@@ -103,22 +103,31 @@ fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>>(
     let s = hex8::second_piola::<S, L, _>(&k, &d, &Identity, one);
     let mut p = hex8::times_second_piola::<S, L>(&f, &s);
     let pressure = d.wj + law.dU(j);
-    for q in &mut hourglass {
-        *q = scale(*q, class.hourglass_stiffness());
-    }
     let mut power = S::zero();
     if let Some((rate, rates)) = rates {
-        let (viscous, density) = viscosity.stress(&rate, &cof, j, one);
+        let l = velocity_gradient(&rate, &cof);
+        let (viscous, density) = viscosity.stress(&l, j, one);
         power += density * class.volume();
+        let mut stress = hex8::with_pressure(viscous, pressure);
+        let eta = class.hourglass_viscosity();
+        let density = eta / (class.volume() * j);
         for h in 0..4 {
-            hourglass[h] = axpy(rates[h], class.hourglass_viscosity(), hourglass[h]);
-            power += class.hourglass_viscosity() * dot(rates[h], rates[h]);
+            let (mode, turning) = (hourglass[h], viscosity.turning(&l, j, hourglass[h], rates[h]));
+            hourglass[h] = axpy(turning, eta, scale(mode, class.hourglass_stiffness()));
+            // Without this part of the stress, q x dq/dt would be a moment on the whole element.
+            for c in 0..3 {
+                stress[c] = axpy(mode, density * turning[c], stress[c]);
+            }
+            let carried = combined(&l, mode[0], mode[1], mode[2]);
+            power += eta * (dot(turning, rates[h]) + dot(turning, carried) / j);
         }
-        let stress = hex8::with_pressure(viscous, pressure);
         for c in 0..3 {
             p[c] = add(p[c], combined(&stress, cof[c][0], cof[c][1], cof[c][2]));
         }
     } else {
+        for q in &mut hourglass {
+            *q = scale(*q, class.hourglass_stiffness());
+        }
         for c in 0..3 {
             p[c] = axpy(cof[c], pressure, p[c]);
         }
@@ -246,7 +255,7 @@ mod tests {
     #[test]
     fn an_extruded_element_has_the_forces_of_any_element() {
         let law = MooneyRivlin { g0: 4e7, g1: 1e6, g2: 3e5 };
-        let (still, moving) = (Inviscid, KelvinVoigt { eta: 20.0 });
+        let (still, moving) = (Inviscid, KelvinVoigt::new(20.0));
         let mut state = 7u64;
         let mut next = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

@@ -18,7 +18,7 @@ mod yeoh;
 pub use mooney_rivlin::MooneyRivlin;
 pub use mooney_rivlin_eq4::MooneyRivlinEq4;
 pub use neo_hookean::NeoHookean;
-pub use viscosity::{Inviscid, KelvinVoigt, Viscosity};
+pub use viscosity::{Inviscid, KelvinVoigt, Viscosity, velocity_gradient};
 pub use yeoh::Yeoh;
 
 use super::parameters::{Fault, Parameter, Parameters};
