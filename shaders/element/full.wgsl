@@ -8,10 +8,10 @@ fn point_pressure(mean: real, j: real) -> real {
     return dU(j);
 }
 
-fn mean_U(c: Columns, shape: u32) -> real {
+fn mean_U(dilatation: real, shape: u32) -> real {
     return 0.0;
 }
 
-fn point_U(j: real) -> real {
-    return U(j);
+fn point_U(dilatation: real) -> real {
+    return U(dilatation);
 }

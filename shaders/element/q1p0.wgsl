@@ -21,10 +21,11 @@ fn point_pressure(mean: real, j: real) -> real {
     return mean;
 }
 
-fn mean_U(c: Columns, shape: u32) -> real {
-    return classes[shape].volume * U(volume(c) * classes[shape].inverse_volume);
+// From the integral of J - 1 over the element, which is v - V.
+fn mean_U(dilatation: real, shape: u32) -> real {
+    return classes[shape].volume * U(dilatation * classes[shape].inverse_volume);
 }
 
-fn point_U(j: real) -> real {
+fn point_U(dilatation: real) -> real {
     return 0.0;
 }

@@ -22,11 +22,11 @@ fn mean_stress(f: mat3x3r) -> MeanStress {
 
 fn element_energy(low: Face, high: Face, shape: u32) -> vec3r {
     let m = modes(offsets_of(low, high), shape);
-    let j = determinant(m.f);
-    let k = invariants(identity(), gram(m.f));
+    let g = gram(m.f);
+    let s = strain_of(full(Sym(g.d - vec3r(1.0), g.o)));
     let q2 = dot(m.h0, m.h0) + dot(m.h1, m.h1) + dot(m.h2, m.h2) + dot(m.h3, m.h3);
     return vec3r(
-        classes[shape].volume * (psi(k.i1, k.i2, j) + U(j)),
+        classes[shape].volume * (psi(s) + U(s.dilatation)),
         0.5 * classes[shape].hourglass_stiffness * q2,
-        j);
+        determinant(m.f));
 }

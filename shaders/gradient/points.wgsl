@@ -80,12 +80,14 @@ fn internal_forces(c: Columns, shape: u32, mean: real, r: Columns) -> LineForces
     return LineForces(lines, min(low, high), power);
 }
 
-// (pointwise energy, smallest det F), volumetric energy by the element's own rule.
-fn point_energy(a: mat3x3r, shape: u32, q: u32) -> vec2r {
+// (pointwise energy, integral of J - 1, det F), volumetric energy by the element's own rule. The metric is the inverse of
+// what A^T A is in the reference shape.
+fn point_energy(a: mat3x3r, shape: u32, q: u32) -> vec3r {
     let geometry = classes[shape].points[q];
-    let j = determinant(a) * geometry.inverse_det_j0;
-    let k = invariants(Sym(geometry.metric, geometry.metric_off), gram(a));
-    return vec2r(geometry.volume * (psi(k.i1, k.i2, j) + point_U(j)), j);
+    let metric = full(Sym(geometry.metric, geometry.metric_off));
+    let s = strain_of(metric * (full(gram(a)) - inverse_of(metric)));
+    let energy = psi(s) + point_U(s.dilatation);
+    return vec3r(geometry.volume * vec2r(energy, s.dilatation), determinant(a) * geometry.inverse_det_j0);
 }
 
 fn element_energy(lower: Face, upper: Face, shape: u32) -> vec3r {
@@ -98,8 +100,8 @@ fn element_energy(lower: Face, upper: Face, shape: u32) -> vec3r {
     let e5 = point_energy(mat3x3r(c.xi.c, c.eta.d, c.zeta.b), shape, 5u);
     let e6 = point_energy(mat3x3r(c.xi.d, c.eta.c, c.zeta.c), shape, 6u);
     let e7 = point_energy(mat3x3r(c.xi.d, c.eta.d, c.zeta.d), shape, 7u);
-    let low = min(min(e0.y, e1.y), min(e2.y, e3.y));
-    let high = min(min(e4.y, e5.y), min(e6.y, e7.y));
-    let sum = e0.x + e1.x + e2.x + e3.x + e4.x + e5.x + e6.x + e7.x;
-    return vec3r(sum + mean_U(c, shape), 0.0, min(low, high));
+    let low = min(min(e0.z, e1.z), min(e2.z, e3.z));
+    let high = min(min(e4.z, e5.z), min(e6.z, e7.z));
+    let sum = e0.xy + e1.xy + e2.xy + e3.xy + e4.xy + e5.xy + e6.xy + e7.xy;
+    return vec3r(sum.x + mean_U(sum.y, shape), 0.0, min(low, high));
 }

@@ -5,10 +5,8 @@ override g0: real;
 override g1: real;
 override g2: real;
 
-fn psi(i1: real, i2: real, j: real) -> real {
-    let r = recip_cbrt(j);
-    let r2 = r * r;
-    return 0.5 * g1 * (r2 * i1 - 3.0) + 0.5 * g2 * (r2 * r2 * i2 - 3.0);
+fn psi(s: Strain) -> real {
+    return 0.5 * g1 * isochoric_i1(s) + 0.5 * g2 * isochoric_i2(s);
 }
 
 // (dW/dI1, dW/dI2, dW/dJ)
@@ -20,8 +18,8 @@ fn derivatives(i1: real, i2: real, j: real) -> vec3r {
     return vec3r(w1, w2, -(w1 * i1 + 2.0 * w2 * i2) * 0.6666666666666667 * (r2 * r));
 }
 
-fn U(j: real) -> real {
-    return 0.5 * g0 * (j - 1.0) * (j - 1.0);
+fn U(dilatation: real) -> real {
+    return 0.5 * g0 * dilatation * dilatation;
 }
 
 fn dU(j: real) -> real {

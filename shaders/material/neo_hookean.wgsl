@@ -3,9 +3,8 @@
 override g0: real;
 override g1: real;
 
-fn psi(i1: real, i2: real, j: real) -> real {
-    let r = recip_cbrt(j);
-    return 0.5 * g1 * (r * r * i1 - 3.0);
+fn psi(s: Strain) -> real {
+    return 0.5 * g1 * isochoric_i1(s);
 }
 
 // (dW/dI1, dW/dI2, dW/dJ)
@@ -16,8 +15,8 @@ fn derivatives(i1: real, i2: real, j: real) -> vec3r {
     return vec3r(w1, 0.0, w1 * i1 * (r2 * r) * -0.6666666666666667);
 }
 
-fn U(j: real) -> real {
-    return 0.5 * g0 * (j - 1.0) * (j - 1.0);
+fn U(dilatation: real) -> real {
+    return 0.5 * g0 * dilatation * dilatation;
 }
 
 fn dU(j: real) -> real {

@@ -6,9 +6,8 @@ override c20: real;
 override c30: real;
 override bulk_modulus: real;
 
-fn psi(i1: real, i2: real, j: real) -> real {
-    let r = recip_cbrt(j);
-    let e = r * r * i1 - 3.0;
+fn psi(s: Strain) -> real {
+    let e = isochoric_i1(s);
     return ((c30 * e + c20) * e + c10) * e;
 }
 
@@ -21,8 +20,8 @@ fn derivatives(i1: real, i2: real, j: real) -> vec3r {
     return vec3r(w1, 0.0, w1 * i1 * (r2 * r) * -0.6666666666666667);
 }
 
-fn U(j: real) -> real {
-    return 0.5 * bulk_modulus * (j - 1.0) * (j - 1.0);
+fn U(dilatation: real) -> real {
+    return 0.5 * bulk_modulus * dilatation * dilatation;
 }
 
 fn dU(j: real) -> real {

@@ -20,6 +20,7 @@ mod rig;
 mod rim;
 mod rolling;
 mod runs;
+mod small_strains;
 mod steps;
 mod timing;
 
@@ -31,10 +32,11 @@ use std::sync::Arc;
 
 type Check = fn(&Gpu);
 
-const CHECKS: [(&str, Check); 28] = [
+const CHECKS: [(&str, Check); 29] = [
     ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
     ("forces_as_pairs_are_the_cpus", forces::pairs),
     ("forces_of_every_numbering_are_the_cpus", forces::every_numbering),
+    ("small_strains_store_what_the_closed_form_says", small_strains::shear),
     ("a_step_with_everything_is_the_cpus", steps::everything),
     ("a_spinning_vibrating_block_is_the_cpus", runs::spinning_block),
     ("a_pressed_wheel_is_the_cpus", runs::pressed_wheel),
