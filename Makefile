@@ -10,7 +10,7 @@ SCENE ?= scenes/lat100_straight.toml
 ARGS ?=
 OUT ?= runs/$(basename $(notdir $(SCENE)))
 
-.PHONY: help setup tools build run test verify report mutants lint clean-runs
+.PHONY: help setup tools build run test verify report mutants lint book clean-runs
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 22
@@ -40,6 +40,9 @@ report: build ## claims, hard cases, speed against error: docs/verification.md, 
 
 mutants: setup ## plant known faults, one by one; every one must be noticed by a test
 	bash scripts/mutants.sh $(ARGS)
+
+book: ## the documentation as a book in target/book (needs mdbook: cargo install mdbook)
+	mdbook build
 
 lint: setup ## format, clippy, licences
 	bash scripts/lint.sh

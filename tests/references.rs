@@ -243,7 +243,8 @@ fn tables_of_the_docs_expect_what_the_references_say() {
     known.extend([1e3 * given::DEPTH, 1e3 * (given::OUTER_RADIUS - given::DEPTH)]);
     let [fx, fz] = ["road_fx", "road_fz"].map(|q| reference(&format!("straight-openradioss.{q}")).value);
     for (file, sections, least) in [
-        ("README.md", &[][..], 18),
+        ("README.md", &[][..], 5),
+        ("docs/results.md", &[], 18),
         ("docs/convergence.md", &[], 20),
         ("docs/implicit.md", &["Measured: the wheel"], 14),
         ("docs/verification.md", &["The paper's wheel", "The pressed wheel"], 24),
@@ -261,16 +262,16 @@ fn tables_of_the_docs_expect_what_the_references_say() {
     }
 }
 
-/// Rows of the README and of docs that name a scene give its own run's values.
+/// Rows of the results that name a scene give its own run's values.
 #[test]
 fn rows_of_a_scene_expect_its_own_run() {
     let mut checked = 0;
     for (name, run) in references::runs().filter(|(name, _)| *name != "free") {
         for stem in &run.scenes {
             let begins = format!("| `{stem}` | ");
-            for line in text("README.md").lines().filter(|l| l.starts_with(&begins)) {
+            for line in text("docs/results.md").lines().filter(|l| l.starts_with(&begins)) {
                 let cell = line[begins.len()..].split('|').next().unwrap();
-                checked += assert_columns("README.md", cell, name).len();
+                checked += assert_columns("docs/results.md", cell, name).len();
             }
         }
     }
@@ -281,13 +282,16 @@ fn rows_of_a_scene_expect_its_own_run() {
 #[test]
 fn prose_cites_the_references() {
     for (file, names) in [
-        ("README.md", &["pressed-quadratic.road_fz", "pressed-quadratic-frictionless.road_fz"][..]),
+        ("docs/results.md", &["pressed-quadratic.road_fz", "pressed-quadratic-frictionless.road_fz"][..]),
         (
-            "README.md",
+            "docs/results.md",
             &["straight-openradioss.road_fx", "straight-openradioss.road_fz", "straight-openradioss.rim_my"],
         ),
-        ("README.md", &["pressed-q1p0.road_fz", "pressed-q1p0-frictionless.road_fz", "pressed-full.road_fz"]),
-        ("README.md", &["pressed-uniform-gradient.road_fz", "pressed-paper.road_fz"]),
+        (
+            "docs/results.md",
+            &["pressed-q1p0.road_fz", "pressed-q1p0-frictionless.road_fz", "pressed-full.road_fz"],
+        ),
+        ("docs/results.md", &["pressed-uniform-gradient.road_fz", "pressed-paper.road_fz"]),
         ("docs/convergence.md", &["straight-viscous-settled.road_fx", "free.free_rolling_radius"]),
         (
             "docs/convergence.md",

@@ -122,7 +122,11 @@ pub fn of_run(
 ) -> Vec<String> {
     let named = stages.iter().filter_map(|s| Some((&s.stage, s.contact.as_ref()?)));
     let verdicts = named.filter_map(|(stage, contact)| verdict(scene, stage, contact));
-    unbalanced(scene, stored, totals).into_iter().chain(hourglass.and_then(hourglassed)).chain(verdicts).collect()
+    unbalanced(scene, stored, totals)
+        .into_iter()
+        .chain(hourglass.and_then(hourglassed))
+        .chain(verdicts)
+        .collect()
 }
 
 /// Hourglass energy over strain energy from which on it is worth a word: where hourglass modes are but a remedy, they hold some per
