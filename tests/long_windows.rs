@@ -106,8 +106,11 @@ fn watched(scene: &Scene, observer: &mut Impatient) -> (Totals, usize) {
 
 #[test]
 fn steps_of_a_window_are_not_remembered() {
-    // 0.3 ms of impact in several 100,000 steps.
+    // The block is put down: the road's force swings about its weight, 0.3 ms in more than 300,000 steps. (An
+    // impact's first step has a force that depends on where in the step the node lands, which no other step repeats.)
     let mut scene = bouncing(3e-4, 3e-4);
+    (scene.body.offset, scene.body.velocity) = ([0.0; 3], [0.0; 3]);
+    scene.gravity = [0.0, 0.0, -9.81];
     scene.safety = 1e-5;
     let mut observer = Impatient::new(usize::MAX);
     let (totals, most) = watched(&scene, &mut observer);
@@ -117,7 +120,7 @@ fn steps_of_a_window_are_not_remembered() {
     let told = &observer.inside;
     assert!(told.len() > 10 && told.is_sorted() && told.iter().all(|(t, _)| *t > 0.0 && *t < 3e-4));
 
-    // The same impact in windows of which each step is kept: mean and scatter of the force agree. The deviation over the whole
+    // The same in windows of which each step is kept: mean and scatter of the force agree. The deviation over the whole
     // is that within the windows and that of their means.
     scene.output.sample = 3e-5;
     let parts = simulate(&scene);
@@ -125,7 +128,8 @@ fn steps_of_a_window_are_not_remembered() {
     let mean = |f: &dyn Fn(&Sample) -> f64| parts.samples.iter().map(f).sum::<f64>() / 10.0;
     let force = mean(&|s| s.road_fz_N);
     let square = mean(&|s| s.road_fz_std_N.powi(2) + (s.road_fz_N - force).powi(2));
-    assert!(force > 1.0 && whole.road_fz_std_N > 0.1, "{whole:?}");
+    // A weight of 11 mN.
+    assert!(force > 5e-3 && whole.road_fz_std_N > 2e-3, "{whole:?}");
     // Windows end at whole steps of slightly different lengths: one in 50,000 each.
     assert!((whole.road_fz_N / force - 1.0).abs() < 1e-4, "{} and {force} N", whole.road_fz_N);
     let (a, b) = (whole.road_fz_std_N, square.sqrt());
