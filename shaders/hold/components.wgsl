@@ -1,4 +1,4 @@
-// Held components of nodes: their force is taken by whatever holds them. Bit d of a node's word: component d.
+// Held components of nodes: their force is taken by whatever holds them, and they have no velocity. Bit d of a node's word: component d.
 
 fn moving(n: u32, f: vec3r) -> vec3r {
     let bits = held[n];

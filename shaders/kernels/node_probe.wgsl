@@ -14,7 +14,7 @@ fn probe(n: u32) -> Probed {
     let before = velocities[n];
     let v = before.xyz;
     velocities[n] = vec4r(v, 0.0);
-    let moved = move_node(node, f_int, x, v);
+    let moved = move_node(n, node, f_int, x, v);
     // Works over the half step before.
     let way = step.weight_before * v;
     let net = (node.mass / step.dtm) * (moved.v - v);

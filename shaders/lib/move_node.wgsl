@@ -13,9 +13,10 @@ fn unconstrained(x: vec3r, v: vec3r) -> Moved {
     return Moved(x + step.dt * v, v, vec3r(0.0), vec3r(0.0), 0u);
 }
 
-fn move_node(node: Node, f_int: vec3r, x: vec3r, v: vec3r) -> Moved {
+// Whatever holds a component takes gravity along it too.
+fn move_node(n: u32, node: Node, f_int: vec3r, x: vec3r, v: vec3r) -> Moved {
     if is_rim(node.role) {
         return carried(node.role & 0x7fffffffu);
     }
-    return touched(node, x, v, predict(node.mass, f_int, v));
+    return touched(node, x, v, moving(n, predict(node.mass, f_int, v)));
 }

@@ -10,7 +10,7 @@ fn take_step(n: u32) -> vec4r {
     // With the work of the internal force in this window.
     let before = velocities[of_nodes(n)];
     let v = before.xyz;
-    let moved = move_node(node, f_int, x, v);
+    let moved = move_node(n, node, f_int, x, v);
     let way = step.weight_before * v + step.weight_after * moved.v;
     let rim = is_rim(node.role);
     book_others(n, node, v, moved.v, way, rim);

@@ -17,6 +17,8 @@ pub struct Problem<'a> {
     pub gravity: [f64; 3],
     /// Whether a node is a rim node.
     pub on_rim: Vec<bool>,
+    /// Components that do not follow from the equations: a rim node's, and those that the scene holds at rest.
+    pub given: Vec<[bool; 3]>,
 }
 
 /// What stays the same during an increment. Per-node fields have shape `[node_count]`.
@@ -82,7 +84,11 @@ impl<'a> Problem<'a> {
     pub fn new(model: &'a Model, gravity: [f64; 3]) -> Self {
         let mut on_rim = vec![false; model.node_count()];
         model.mesh.rim.iter().for_each(|&n| on_rim[n as usize] = true);
-        Problem { model, assembler: Assembler::new(model), rim: RimNodes::new(model), gravity, on_rim }
+        let mut given: Vec<[bool; 3]> = on_rim.iter().map(|&on| [on; 3]).collect();
+        for (given, bits) in given.iter_mut().zip(&model.mesh.held) {
+            (0..3).for_each(|d| given[d] |= bits >> d & 1 == 1);
+        }
+        Problem { model, assembler: Assembler::new(model), rim: RimNodes::new(model), gravity, on_rim, given }
     }
 
     /// Whether the tangent is symmetric up to round-off: without viscosity, and in statics.
@@ -167,7 +173,8 @@ impl<'a> Problem<'a> {
             done[self.model.mesh.surface[k] as usize] = true;
             sum += square(self.local(inc, at, &residual.r, k, stiffness).violation(status));
         }
-        sum += residual.r.iter().zip(&done).filter(|(_, d)| !**d).map(|(r, _)| square(*r)).sum::<f64>();
+        let free = residual.r.iter().zip(&self.given).zip(&done).filter(|(_, d)| !**d);
+        sum += free.map(|((r, given), _)| square(without(*r, *given))).sum::<f64>();
         let arm = (self.rim.inertia / self.rim.mass.max(f64::MIN_POSITIVE)).sqrt();
         for (&c, &r) in inc.rim.free.iter().zip(&residual.rim) {
             let r = if c == crate::physics::rim::SPIN { r / arm } else { r };
@@ -175,4 +182,10 @@ impl<'a> Problem<'a> {
         }
         sum.sqrt()
     }
+}
+
+/// A force without its `given` components.
+pub fn without(mut f: Vec3<f64>, given: [bool; 3]) -> Vec3<f64> {
+    (0..3).filter(|&d| given[d]).for_each(|d| f[d] = 0.0);
+    f
 }

@@ -9,7 +9,7 @@
 use super::contact::{Status, Surface};
 use super::linearised::Failure;
 use super::newton::{Converged, Iteration, Newton};
-use super::problem::{Increment, Iterate, Problem, RimIncrement};
+use super::problem::{Increment, Iterate, Problem, RimIncrement, without};
 use crate::engine::State;
 use crate::model::areas::inverse_areas;
 use crate::physics::rim::Coordinates;
@@ -132,6 +132,9 @@ impl<'a> Simulation<'a> {
             self.a[n] = std::array::from_fn(|i| {
                 self.problem.gravity[i] - self.internal[n][i] / m - target.damping * self.v[n][i]
             });
+            if !self.problem.on_rim[n] {
+                self.a[n] = without(self.a[n], self.problem.given[n]);
+            }
         }
         for c in 0..6 {
             let Some(own) = target.free[c] else { continue };

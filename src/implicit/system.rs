@@ -58,7 +58,7 @@ impl System {
                 std::array::from_fn(|i| if problem.on_rim[n] { known[n][i] - at.x[n][i] } else { 0.0 });
         }
         let mut rhs: Vec<Vec3<f64>> = residual.r.iter().map(|r| r.map(|c| -c)).collect();
-        let mut fixed: Vec<[bool; 3]> = problem.on_rim.iter().map(|&on| [on; 3]).collect();
+        let mut fixed = problem.given.clone();
         let mut columns = vec![None; count];
         let mut laws: Vec<Option<Equations>> = vec![None; count];
         let mut symmetric = problem.symmetric(inc);
@@ -105,7 +105,7 @@ impl System {
         let Linearised { problem, inc, residual, matrix, .. } = linearised;
         let mut matrix = matrix.clone();
         let count = at.x.len();
-        let mut fixed: Vec<[bool; 3]> = problem.on_rim.iter().map(|&on| [on; 3]).collect();
+        let mut fixed = problem.given.clone();
         let mut columns = vec![None; count];
         for (n, law) in laws.iter().enumerate() {
             if let Some(law) = law {

@@ -176,7 +176,8 @@ unsafe fn line_in<N: Lanes, const PROBE: bool>(step: &LineStep<N::Real>) {
             let x = load3::<N>(&places.x, at);
             let v = load3::<N>(&places.v, at);
             let (mass, w) = (N::load(masses.0, at), N::load(masses.1, at));
-            let v_star = lanes.prediction.velocity(w, f_int, v);
+            // Whatever holds a component takes gravity along it too.
+            let v_star = moving::<N>(batch.held, lanes.prediction.velocity(w, f_int, v));
             let mut moved = Moved { x: axpy(v_star, lanes.dt, x), v: v_star };
             if let (true, Some(road)) = (batch.surface != 0, &c.road) {
                 let sums = shared.sums(number);
@@ -241,7 +242,7 @@ impl<'a> SlotsOf<'a> {
     }
 }
 
-/// A force without its held components, which whatever holds them takes; `held`: lanes by component.
+/// A force or a velocity without its held components: whatever holds them takes the force; `held`: lanes by component.
 #[inline(always)]
 fn moving<N: Lanes>(held: [u32; 3], f: Vec3<N>) -> Vec3<N> {
     if held == [0; 3] {

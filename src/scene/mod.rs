@@ -57,7 +57,8 @@ impl Scene {
             what: format!("{}: {what} in an implicit stage", self.file.display()),
             instead: instead.into(),
         };
-        (!self.holds.is_empty()).then(|| error("[[hold]]", "use explicit stages"))
+        (!self.holds.is_empty() && self.road.is_some())
+            .then(|| error("[[hold]] beside a [road]", "use explicit stages, or remove one of the two"))
     }
 }
 

@@ -17,7 +17,7 @@ pub use correction::Corrections;
 use super::contact::Status;
 use super::linearised::{Correction, Failure, Linearised};
 use super::matrix::{Block, BlockMatrix, inverse, times};
-use super::problem::{Increment, Iterate, Problem, Residual};
+use super::problem::{Increment, Iterate, Problem, Residual, without};
 use crate::physics::tensor::{Vec3, add, axpy, sub};
 use node::NodeProblem;
 use rim::RimBlock;
@@ -99,7 +99,7 @@ impl<'a> Sweep<'a> {
         let d =
             (0..count).map(|n| if problem.on_rim[n] { sub(placed[n], at.x[n]) } else { [0.0; 3] }).collect();
         Sweep {
-            inverses: (0..count).map(|i| inverse(matrix.diagonal(i))).collect(),
+            inverses: (0..count).map(|i| free_inverse(matrix.diagonal(i), problem, i)).collect(),
             rim: RimBlock::new(problem, inc, at, residual, matrix),
             force: vec![[0.0; 3]; at.status.len()],
             status: at.status.clone(),
@@ -151,7 +151,8 @@ impl<'a> Sweep<'a> {
         let coupled = self.matrix.row_times(i, &self.d);
         let own = times(self.matrix.diagonal(i), self.d[i]);
         // Everything but the node's own displacement: b = -r_i - sum_{j != i} K_ij d_j.
-        let b: Vec3<f64> = std::array::from_fn(|a| -self.residual.r[i][a] - coupled[a] + own[a]);
+        let b = std::array::from_fn(|a| -self.residual.r[i][a] - coupled[a] + own[a]);
+        let b = without(b, self.problem.given[i]);
         let full = times(&self.inverses[i], b);
         let relaxed = axpy(sub(full, self.d[i]), self.omega, self.d[i]);
         let (Some(k), Some(surface)) = (self.surface_index[i], &self.inc.surface) else {
@@ -197,7 +198,7 @@ impl<'a> Sweep<'a> {
         let mut left = vec![[0.0; 3]; self.d.len()];
         self.matrix.multiply(&self.d, &mut left);
         for (i, left) in left.iter_mut().enumerate() {
-            *left = if self.problem.on_rim[i] { [0.0; 3] } else { add(self.residual.r[i], *left) };
+            *left = without(add(self.residual.r[i], *left), self.problem.given[i]);
             if let Some(k) = self.surface_index[i] {
                 *left = sub(*left, self.force[k as usize]);
             }
@@ -214,4 +215,19 @@ impl<'a> Sweep<'a> {
         let rim = (0..self.rim.dq.len()).map(|m| self.rim_left(m).powi(2)).sum::<f64>();
         (super::matrix::dot(left, left) + rim).sqrt()
     }
+}
+
+/// Inverse of a node's block on its free components; held ones do not move. A rim node's is not read.
+fn free_inverse(block: &Block, problem: &Problem<'_>, node: usize) -> Block {
+    let given = problem.given[node];
+    if problem.on_rim[node] || given == [false; 3] {
+        return inverse(block);
+    }
+    let unit = block[0][0] + block[1][1] + block[2][2];
+    let entry = |i: usize, j: usize| match (given[i] || given[j], i == j) {
+        (false, _) => block[i][j],
+        (true, true) => unit,
+        (true, false) => 0.0,
+    };
+    inverse(&std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))))
 }

@@ -108,7 +108,7 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
     let holds = match table.get("hold") {
         Some(item) => {
             let holds = world::holds(&item)?;
-            world::check_holds(&item, &holds, gravity, road.as_ref())?;
+            world::check_holds(&item, &holds, road.as_ref())?;
             holds
         }
         None => Vec::new(),

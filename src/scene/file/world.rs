@@ -47,17 +47,12 @@ fn hold(item: &Item) -> Result<Hold> {
     Ok(Hold { nodes, components })
 }
 
-/// A held component must not be pushed by what acts on whole vectors: gravity and the road.
-pub(super) fn check_holds(item: &Item, holds: &[Hold], gravity: [f64; 3], road: Option<&Road>) -> Result<()> {
+/// The road, which acts on whole vectors, must not push a held component.
+pub(super) fn check_holds(item: &Item, holds: &[Hold], road: Option<&Road>) -> Result<()> {
+    let Some(road) = road else { return Ok(()) };
     for (hold, entry) in holds.iter().zip(item.entries()?) {
         for (d, name) in ["x", "y", "z"].into_iter().enumerate().filter(|(d, _)| hold.components[*d]) {
-            let Some(what) = (match road {
-                _ if gravity[d] != 0.0 => Some("gravity acts"),
-                Some(road) => road.acts_along(d),
-                None => None,
-            }) else {
-                continue;
-            };
+            let Some(what) = road.acts_along(d) else { continue };
             let problem = format!("{what} along the held component {name}");
             return Err(entry.error(problem, "hold another component, or hold these nodes with [rim]"));
         }
