@@ -5,9 +5,9 @@ use hexroll::physics::road::Plane;
 use hexroll::record::{Sample, Snapshot};
 use hexroll::scene::{Road, Scene, Snapshots};
 use hexroll_lab::rig::given::{DEPTH, SPEED, SPIN, STRAIGHT, VISCOSITY};
-use hexroll_lab::rig::{Outcome, down, press, rolling, run, wheel};
+use hexroll_lab::rig::{Outcome, down, rolling, run, wheel};
 
-/// A viscous wheel, pressed and rolled in windows of 1 ms on a road that moves at `road` [m/s] along x; a snapshot each.
+/// A viscous wheel, pressed while it rolls, in windows of 1 ms on a road that moves at `road` [m/s] along x; a snapshot each.
 fn rolled(axle: [f64; 2], road: f64) -> Outcome {
     let mut scene: Scene = wheel([24, 3, 3], 1.0);
     let ground = scene.road.expect("a road");
@@ -16,7 +16,9 @@ fn rolled(axle: [f64; 2], road: f64) -> Outcome {
     scene.body.viscosity = Some(VISCOSITY);
     scene.output.sample = 1e-3;
     scene.output.snapshots = Snapshots::Every(1e-3);
-    scene.stages = vec![press(down(DEPTH)), rolling(axle, SPIN, 0.12)];
+    let mut roll = rolling(axle, SPIN, 0.14);
+    roll.rim.z = down(DEPTH);
+    scene.stages = vec![roll];
     run(&scene)
 }
 
