@@ -17,7 +17,7 @@ struct Body {
 
 /// A wheel that rolls from the first step with this side speed; `share`: of the usual step.
 fn wheel(changes: &[&str], side: f64, share: f64, steps: usize) -> Body {
-    let own = ["body.mesh.elements=[20, 3, 3]", "body.velocity=[\"1 m/s\", \"0 m/s\", \"-1 m/s\"]"];
+    let own = ["body.mesh.elements=[20, 3, 3]"];
     let scene = scene("lat100_straight_viscous", &[&own[..], changes].concat());
     let model = Model::new(&scene).unwrap();
     let plan = Plan::of_first_stage(&scene, &model, share * safe_step(&model), 3, steps);

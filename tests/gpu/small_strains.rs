@@ -4,7 +4,7 @@ use crate::rig::{Who, engine, note};
 use hexroll::engine::{StageSetup, State, Step};
 use hexroll::gpu::Gpu;
 use hexroll::model::Model;
-use hexroll_lab::rig::{ELEMENTS, block, elastic_constants, laws};
+use hexroll_lab::rig::{ELEMENTS, block, laws};
 
 /// A block sheared by gamma stores G/2 gamma^2 V, exactly but for terms of gamma^4 in the laws of a kind that knows ln J, from
 /// strains of a tenth down to where the rounding of positions is a strain of its own.
@@ -15,7 +15,7 @@ pub fn shear(gpu: &Gpu) {
         let mut scene = block(size, [8, 8, 2]);
         (scene.body.element, scene.body.law) = (element, law);
         let model = Model::new(&scene).unwrap();
-        let [G, kappa] = elastic_constants(&law);
+        let [G, kappa] = [law.shear_modulus(), law.bulk_modulus()];
         for who in [Who::Cpu32, Who::Gpu, Who::Plus] {
             for gamma in [1e-2, 1e-3, 1e-4, 1e-5] {
                 let mut engine = engine(gpu, who, &model, &scene);
