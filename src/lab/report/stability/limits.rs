@@ -311,11 +311,11 @@ pub const HARD: &[Hard] = &[
     Hard {
         fails: true,
         ..case(
-            "press_16",
+            "press_20",
             "pressed_until_elements_turn_inside_out",
-            "pressed by 16 of 22 mm: elements turn inside out",
+            "pressed by 20 of 22 mm: elements turn inside out",
             0.03,
-            || pressed(16e-3),
+            || pressed(20e-3),
         )
     },
     case("impact_10", "impact_at_10_metres_a_second", "block thrown at 10 m/s", 0.1, || {
