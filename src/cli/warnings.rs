@@ -159,10 +159,8 @@ const MORE_DIGITS: &str = "--precision f64, or f32+ on a GPU, has more digits";
 /// An error that is round-off is nobody's fault; one that rounding explains has no other cause.
 fn unbalanced(scene: &Scene, stored: &WorstBalance, totals: &Totals) -> Option<String> {
     let share = stored.share_of_largest_term;
-    if !(share > UNBALANCED) || stored.worst_error_J <= totals.energy_round_off() {
-        return None;
-    }
-    Some(match totals.estimate.rounding {
+    let counts = share > UNBALANCED && stored.worst_error_J > totals.energy_round_off();
+    counts.then(|| match totals.estimate.rounding {
         Some(class) if class >= share => format!(
             "stored energy and works differ by {:.0} % of the largest of them: rounding does as much to the forces of this \
              body (estimated at {:.0} % of them), and the numbers are not to be believed. {MORE_DIGITS}",
