@@ -34,6 +34,8 @@ pub struct StageSetup {
     pub mass_damping: f64,
     /// The rim's own mass or inertia for every free component [kg, kg m2], `None` where prescribed.
     pub free: [Option<f64>; 6],
+    /// Whether stresses that relax have relaxed already: the stage is as slow as its loads need.
+    pub relaxed: bool,
 }
 
 /// Work done on the body, by kind [J]; losses are negative.
@@ -41,6 +43,7 @@ pub struct StageSetup {
 pub struct Works {
     /// By the elastic internal force.
     pub internal: f64,
+    /// By the stresses of viscosity and relaxation, of which a Prony series gives a part back.
     pub viscous: f64,
     pub damping: f64,
     pub body_force: f64,
@@ -102,6 +105,8 @@ pub struct Window {
     pub strain: f64,
     pub hourglass: f64,
     pub min_jacobian: f64,
+    /// Energy that viscosity and relaxation have turned into heat in the window's steps [J].
+    pub dissipated: f64,
 }
 
 impl Window {
@@ -129,6 +134,7 @@ impl Window {
             rim_moment_impulse: sums.rim_moment_impulse,
             surface: sums.surface.iter().zip(&later.surface).map(node).collect(),
             step_contact: sums.step_contact,
+            dissipated: sums.dissipated + later.dissipated,
             ..later
         };
     }

@@ -73,6 +73,9 @@ pub struct Sample {
     pub min_jacobian: f64,
     /// Step used in the window [s].
     pub dt_s: f64,
+    /// Energy that viscosity and relaxation have turned into heat [J]; 0 in a history of a version without this column.
+    #[serde(default)]
+    pub dissipation_J: f64,
 }
 
 /// A column of numbers in `history.csv`: its name, and its value in a sample.
@@ -90,6 +93,7 @@ impl Sample {
         contact_area_m2 contact_nodes sticking_share changing_share footprint_length_m footprint_width_m peak_pressure_Pa
         kinetic_J strain_J hourglass_J external_work_J friction_work_J road_work_J contact_work_J damping_work_J
         viscous_work_J balance_error_J stored_balance_error_J min_jacobian dt_s
+        dissipation_J
     );
 }
 

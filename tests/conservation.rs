@@ -36,7 +36,7 @@ impl Book {
 fn everything_at_once(scene: &Scene, free: [Option<f64>; 6], each: impl Fn(&Window, &Book)) -> Book {
     let model = Model::new(scene).unwrap();
     let mut driver = Driver::new(&model, scene).unwrap();
-    driver.engine.begin_stage(&StageSetup { mass_damping: 50.0, free }).unwrap();
+    driver.engine.begin_stage(&StageSetup { mass_damping: 50.0, free, ..Default::default() }).unwrap();
     let dt = 0.8 * stability::element_bound(&model).unwrap();
     let [x, y, z] = model.mesh.axle;
     let mut book = Book::default();

@@ -4,7 +4,7 @@
 use hexroll::model::Model;
 use hexroll::model::mesh::{Mesh, SIGNS};
 use hexroll::physics::element::{Class, Compose, Composition, Corners, Energy, Force, Formulation};
-use hexroll::physics::material::{Hyperelastic, Viscosity};
+use hexroll::physics::material::{Forgetful, Hyperelastic, Viscosity};
 use hexroll::physics::tensor::{Mat3, Vec3, add, cross, dot};
 use hexroll::scene::{Body, Element, Law, Lumping};
 use hexroll_lab::rig::given::{DENSITY, INNER_RADIUS, OUTER_RADIUS, WIDTH};
@@ -23,7 +23,7 @@ struct ForceAt<'a> {
 impl Compose for ForceAt<'_> {
     type Output = Force<f64>;
     fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, viscosity: V) -> Force<f64> {
-        F::force(&law, &viscosity, self.class, self.x, self.v)
+        F::force(&law, &viscosity, self.class, self.x, self.v, &mut Forgetful)
     }
 }
 
@@ -34,7 +34,7 @@ fn force(
     x: &Corners<f64>,
     v: Option<&Corners<f64>>,
 ) -> Force<f64> {
-    let composition = Composition { element, law: *law, viscosity: v.map(|_| ETA) };
+    let composition = Composition { element, law: *law, viscosity: v.map(|_| ETA), relaxes: false };
     composition.visit(ForceAt { class, x, v: v.unwrap_or(&[[0.0; 3]; 8]) })
 }
 
@@ -51,7 +51,7 @@ impl Compose for EnergyAt<'_> {
 }
 
 fn energy(element: Element, law: &Law, class: &Class<f64>, x: &Corners<f64>) -> Energy<f64> {
-    Composition { element, law: *law, viscosity: None }.visit(EnergyAt { class, x })
+    Composition { element, law: *law, viscosity: None, relaxes: false }.visit(EnergyAt { class, x })
 }
 
 /// A cube of `EDGE` with every corner moved by up to 15 % of it.
@@ -136,7 +136,7 @@ impl Compose for Turned<'_> {
     type Output = f64;
     fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, viscosity: V) -> f64 {
         let v = std::array::from_fn(|a| std::array::from_fn(|d| (self.x[a][d] - self.then[a][d]) / self.dt));
-        F::force(&law, &viscosity.over(self.dt), self.class, self.x, &v).viscous_power
+        F::force(&law, &viscosity.over(self.dt), self.class, self.x, &v, &mut Forgetful).viscous_power
     }
 }
 
@@ -152,7 +152,7 @@ fn a_rigid_rotation_has_no_viscous_power() {
         let at = |turn: f64| shape.map(|x| times(&rotation(axis, turn), x));
         let dt = 1e-5;
         for (element, law) in combinations() {
-            let composition = Composition { element, law, viscosity: Some(ETA) };
+            let composition = Composition { element, law, viscosity: Some(ETA), relaxes: false };
             let power = composition.visit(Turned { class: &c, then: &at(0.3), x: &at(0.3 + angle), dt });
             let share = power / (ETA * (angle / dt).powi(2) * EDGE.powi(3));
             assert!(share.abs() < 1e-12, "{element:?} {law:?} by {angle}: {share:e}");
@@ -342,7 +342,7 @@ fn extruded_elements_take_the_shorter_way_to_the_same_force() {
                 let v: Corners<f64> = std::array::from_fn(|_| random.vector());
                 let c = &model.classes[class as usize];
                 let general = force(Element::Q1p0, &law, c, &x, Some(&v));
-                let composition = Composition { element: Element::Q1p0, law, viscosity: Some(ETA) };
+                let composition = Composition { element: Element::Q1p0, law, viscosity: Some(ETA), relaxes: false };
                 let shorter = composition.visit_fastest(true, ForceAt { class: c, x: &x, v: &v });
                 let scale = largest(&general.f);
                 for (a, b) in general.f.iter().flatten().zip(shorter.f.iter().flatten()) {

@@ -9,7 +9,7 @@ use hexroll::implicit::matrix::BlockMatrix;
 use hexroll::model::Model;
 use hexroll::physics::element::{Class, Compose, Composition, Corners, Element, Formulation};
 use hexroll::physics::lanes::Level;
-use hexroll::physics::material::{Hyperelastic, Law, Viscosity};
+use hexroll::physics::material::{Forgetful, Hyperelastic, Law, Viscosity};
 use hexroll::{cpu::Precision, scene::Scene};
 use hexroll_lab::rig::{Random, block, book, by_the_book, distort, laws, relative};
 
@@ -21,7 +21,7 @@ struct Fast<'a> {
 impl Compose for Fast<'_> {
     type Output = Corners<f64>;
     fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, viscosity: V) -> Corners<f64> {
-        F::force(&law, &viscosity, self.class, self.x, &[[0.0; 3]; 8]).f
+        F::force(&law, &viscosity, self.class, self.x, &[[0.0; 3]; 8], &mut Forgetful).f
     }
 }
 
@@ -57,7 +57,7 @@ fn the_routines_of_an_element_follow_the_book() {
                 let x = hex.map(|n| x[n as usize]);
                 let expected = book(&law, &X, &x);
                 let class = &model.classes[class as usize];
-                let composition = Composition { element: Element::Q1p0, law, viscosity: None };
+                let composition = Composition { element: Element::Q1p0, law, viscosity: None, relaxes: false };
                 let any = composition.visit(Fast { class, x: &x });
                 assert!(relative(&any, &expected) < 1e-12, "{}: {any:?} {expected:?}", law.name());
                 let fastest = composition.visit_fastest(extruded, Fast { class, x: &x });

@@ -12,7 +12,7 @@ fn load_end(nodes: vec4u) -> End {
 // What multiplies a point's cofactor.
 struct Pressure { p: real }
 
-fn pressed(p: real, cof: mat3x3r, det_a: real, rate: mat3x3r) -> Pressure {
+fn pressed(p: real, at: Deformed, k: Invariants, d: vec3r, m: Sym) -> Pressure {
     return Pressure(p);
 }
 

@@ -12,8 +12,8 @@ fn load_end(nodes: vec4u) -> End {
 // What multiplies a point's cofactor: pressure and viscous stress.
 struct Pressure { stress: mat3x3r, power: real }
 
-fn pressed(p: real, cof: mat3x3r, det_a: real, rate: mat3x3r) -> Pressure {
-    let viscous = viscous_stress(rate * transpose(cof), det_a, WEIGHT);
+fn pressed(p: real, at: Deformed, k: Invariants, d: vec3r, m: Sym) -> Pressure {
+    let viscous = viscous_stress(at.rate * transpose(at.cof), at.det_a, WEIGHT);
     var stress = viscous.stress;
     stress[0][0] += p;
     stress[1][1] += p;

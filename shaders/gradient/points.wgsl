@@ -2,6 +2,11 @@
 
 alias Class = PointClass;
 
+// A at a point, its cofactor, det A, det F, A^T A, the rate of A; its number, and its volume.
+struct Deformed {
+    a: mat3x3r, cof: mat3x3r, det_a: real, j: real, gram: Sym, rate: mat3x3r, q: u32, volume: real
+}
+
 // A at a point, its cofactor, what multiplies that, and S.
 struct Point { a: mat3x3r, cof: mat3x3r, p: Pressure, s: Sym, j: real }
 
@@ -11,9 +16,11 @@ fn point(a: mat3x3r, squares: vec3r, shape: u32, q: u32, mean: real, rate: mat3x
     let cof = cofactor(a);
     let det_a = dot(a[0], cof[0]);
     let j = det_a * geometry.inverse_det_j0;
-    let k = invariants(m, Sym(squares, vec3r(dot(a[0], a[1]), dot(a[0], a[2]), dot(a[1], a[2]))));
+    let g = Sym(squares, vec3r(dot(a[0], a[1]), dot(a[0], a[2]), dot(a[1], a[2])));
+    let k = invariants(m, g);
     let d = derivatives(k.i1, k.i2, j);
-    let p = pressed((d.z + point_pressure(mean, j)) * WEIGHT, cof, det_a, rate);
+    let at = Deformed(a, cof, det_a, j, g, rate, q, geometry.volume);
+    let p = pressed((d.z + point_pressure(mean, j)) * WEIGHT, at, k, d, m);
     return Point(a, cof, p, second_piola(k, d, m, geometry.volume), j);
 }
 

@@ -30,11 +30,13 @@ fn main(
     for (var level = 0u; level < chains.z; level++) {
         nodes = next_face(at + face_slots, nodes);
         let high = load_end(nodes);
+        recall(element_at(chain, level), there);
         let result = element_force(low, high, class_at(chains, level, at));
         let f = result.f;
         store(at, chain, lane, chains.w, level, Shared(held.a + f.a0, held.b + f.a1, held.c + f.a2, held.d + f.a3));
         held = Shared(f.a4, f.a5, f.a6, f.a7);
         power += viscous_power(result);
+        lose(viscous_power(result));
         let sound = is_sound(result);
         if failed == NONE && (!sound || !(result.min_j > 0.0)) {
             failed = level;
@@ -48,6 +50,7 @@ fn main(
         return;
     }
     book_viscous(number * 64u + lane, power);
+    book_memory(number * 64u + lane);
     if failed != NONE {
         report(element_at(chain, failed), finite);
     }

@@ -4,6 +4,7 @@ use super::rim::{Reaction, RimState};
 use super::world::World;
 use crate::engine::{StageSetup, Step};
 use crate::kernels::Conditions;
+use crate::physics::material::{Fading, Pace};
 use crate::physics::scalar::Real;
 
 /// Steps to take, from step number `first` on.
@@ -14,6 +15,8 @@ pub struct Course<'a, T> {
     pub steps: &'a [Step],
     /// The rim before them.
     pub rim: RimState,
+    /// Whether everything has relaxed when the first of them begins.
+    pub rested: bool,
     /// Conditions of every step; none where a component of the rim is free, and they depend on the state.
     known: Option<Vec<Conditions<T>>>,
 }
@@ -25,18 +28,26 @@ impl<'a, T: Real> Course<'a, T> {
         first: u64,
         steps: &'a [Step],
         rim: RimState,
+        rested: bool,
     ) -> Self {
         let known = (!RimState::is_free(setup)).then(|| {
             let starts = std::iter::once(&rim.q).chain(steps.iter().map(|s| &s.rim));
             let numbered = (first..).zip(steps).zip(starts);
             numbered.map(|((n, step), before)| world.conditions(n, step, before, &step.rim)).collect()
         });
-        Course { world, setup, first, steps, rim, known }
+        Course { world, setup, first, steps, rim, rested, known }
     }
 
     /// Its first steps alone.
     pub fn cut(self, count: usize) -> Self {
         Course { steps: &self.steps[..count], ..self }
+    }
+
+    /// Terms of the Prony series in step `n`.
+    pub fn terms(&self, n: usize) -> Vec<Fading> {
+        let pace = if self.setup.relaxed || (n == 0 && self.rested) { Pace::Relaxed } else { Pace::Timed };
+        let (World { relaxation, shear_modulus, .. }, step) = (self.world, &self.steps[n]);
+        relaxation.fading(*shear_modulus, step.dt_before, step.dt, pace)
     }
 
     /// Conditions of lines that are not the rim's, in step `n`: the motion of a free rim is nothing to them.

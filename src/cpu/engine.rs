@@ -11,13 +11,15 @@ use super::world::World;
 use crate::engine::{Engine, EngineInfo, StageSetup, State, Step, StepContact, SurfaceSum, Window};
 use crate::error::{Error, Result};
 use crate::instructions::{Compilable, compiled};
-use crate::kernels::Arrays;
+use crate::kernels::memory::vectors;
+use crate::kernels::{Aligned, Arrays};
 use crate::kernels::Field;
 use crate::kernels::Item;
 use crate::kernels::LineSums;
 use crate::model::mesh::Mesh;
 use crate::model::{Model, areas, frame};
 use crate::physics::lanes::Level;
+use crate::physics::material::Pace;
 use crate::physics::rim::Coordinates;
 use crate::physics::tensor::vec3;
 use crate::scene::{Element, Friction, Scene};
@@ -53,6 +55,10 @@ pub struct CpuEngine<T> {
     grain: f64,
     /// Positions and velocities that a step which fails is taken back to.
     before: [Field<T>; 2],
+    /// What their points remembered; empty where they remember nothing.
+    memory_before: Aligned<T>,
+    /// Whether everything has relaxed at these positions, where another solver has put the body.
+    rested: bool,
     surface_nodes: Vec<u32>,
     step_contact: Vec<StepContact>,
     /// Nodes that touched in the last step.
@@ -78,7 +84,10 @@ impl<T: Compilable> CpuEngine<T> {
         let width = passes.width;
         let plan = Plan::new(model, road.is_some(), width, threads);
         let surface_nodes = if road.is_some() { mesh.surface.clone() } else { Vec::new() };
-        let mut arrays = Arrays::new(&plan.sizes(surface_nodes.len()));
+        let terms = model.relaxation.terms.len();
+        let remembered = vectors(passes.elements.points(), terms) * width;
+        let mut arrays = Arrays::new(&plan.sizes(surface_nodes.len(), remembered));
+        let memory_before = if remembered > 0 { arrays.memory.clone() } else { Aligned::zeros(0) };
         let before = [Field::zeros(plan.places), Field::zeros(plan.places)];
         let grain = frame::grain(mesh);
         let frame = frame::shift(grain, mesh.axle, [0.0; 3], road.as_ref());
@@ -94,6 +103,8 @@ impl<T: Compilable> CpuEngine<T> {
                 gravity: vec3(scene.gravity),
                 mass_damping: 0.0,
                 frame,
+                relaxation: model.relaxation.clone(),
+                shear_modulus: model.law.shear_modulus(),
             },
             stored,
             level,
@@ -103,6 +114,8 @@ impl<T: Compilable> CpuEngine<T> {
             rim: RimState::new(model),
             grain,
             before,
+            memory_before,
+            rested: true,
             surface_nodes,
             step_contact: Vec::new(),
             touching: 0,
@@ -118,18 +131,29 @@ impl<T: Compilable> CpuEngine<T> {
         let [x, v] = &mut self.before;
         x.copy_from(&self.arrays.x);
         v.copy_from(&self.arrays.v);
-        let course = Course::new(&self.world, &self.setup, self.steps, steps, self.rim);
+        if self.remembers() {
+            self.memory_before.slice_mut().copy_from_slice(self.arrays.memory.slice());
+        }
+        let course = Course::new(&self.world, &self.setup, self.steps, steps, self.rim, self.rested);
         let taken = self.program.take(&mut self.arrays, &course, self.touching);
         if let Err(stopped) = &taken {
             // Some nodes of the failing step have moved already: take the steps before it again.
             let [x, v] = &self.before;
             self.arrays.x.copy_from(x);
             self.arrays.v.copy_from(v);
+            if self.remembers() {
+                self.arrays.memory.slice_mut().copy_from_slice(self.memory_before.slice());
+            }
             self.program.clear_loose(&mut self.arrays.f);
             let again = self.program.take(&mut self.arrays, &course.cut(stopped.step), self.touching);
             self.rim = again.expect("these steps have been taken before").rim;
         }
         taken
+    }
+
+    /// Whether points remember.
+    fn remembers(&self) -> bool {
+        !self.world.relaxation.terms.is_empty()
     }
 
     /// Lets the frame follow the axle, when single precision would otherwise run out of digits.
@@ -225,6 +249,7 @@ impl<T: Compilable> Engine for CpuEngine<T> {
                 self.rim = taken.rim;
                 self.step_contact.extend(taken.contact);
                 self.touching = taken.touching;
+                self.rested = false;
                 self.steps += steps.len() as u64;
                 self.window_steps += steps.len() as u64;
                 Ok(())
@@ -237,8 +262,10 @@ impl<T: Compilable> Engine for CpuEngine<T> {
     }
 
     fn sample(&mut self, next: &Step) -> Result<Window> {
-        let viscous = -self.arrays.power.iter().sum::<f64>();
-        self.arrays.power.fill(0.0);
+        let viscous = -self.arrays.viscous.iter().sum::<f64>();
+        self.arrays.viscous.fill(0.0);
+        let dissipated = self.arrays.loss.iter().sum::<f64>();
+        self.arrays.loss.fill(0.0);
         let committed = total(&self.arrays.sums);
         self.arrays.sums.fill(LineSums::default());
         let mut works = committed.works;
@@ -248,7 +275,8 @@ impl<T: Compilable> Engine for CpuEngine<T> {
         let x = [0, 1, 2].map(|d| self.arrays.x.component(d));
         let energies = self.stored.totals(&self.program.elements.items, x);
         let kinetic = self.kinetic();
-        let course = Course::new(&self.world, &self.setup, self.steps, std::slice::from_ref(next), self.rim);
+        let next = std::slice::from_ref(next);
+        let course = Course::new(&self.world, &self.setup, self.steps, next, self.rim, self.rested);
         let probe = self.program.probe(&mut self.arrays, &course);
         let window = Window {
             steps: std::mem::take(&mut self.window_steps),
@@ -264,6 +292,7 @@ impl<T: Compilable> Engine for CpuEngine<T> {
             strain: energies.strain,
             hourglass: energies.hourglass,
             min_jacobian: energies.min_jacobian,
+            dissipated,
         };
         self.follow();
         self.program.nodes.inverse_area = self.inverse_areas(|n| self.absolute(n as usize));
@@ -291,6 +320,7 @@ impl<T: Compilable> Engine for CpuEngine<T> {
     fn set_state(&mut self, state: &State, rim: &Coordinates, rim_rate: &Coordinates) -> Result<()> {
         self.program.fill(&mut self.arrays.x, &state.x, self.world.frame);
         self.rim.q = *rim;
+        self.rested = true;
         self.follow();
         self.set_velocity(&state.v, rim_rate)
     }
@@ -303,9 +333,11 @@ impl<T: Compilable> Engine for CpuEngine<T> {
         if self.viscous {
             self.program.fill(&mut self.arrays.v, v, [0.0; 3]);
         }
-        let power = self.arrays.power.clone();
-        self.program.internal_forces(&mut self.arrays);
-        self.arrays.power = power;
+        let sums = (self.arrays.viscous.clone(), self.arrays.loss.clone());
+        // A change of shape without time: terms resist it with all of their modulus.
+        let terms = self.world.relaxation.fading(self.world.shear_modulus, 0.0, 0.0, Pace::Timed);
+        self.program.internal_forces(&mut self.arrays, &terms);
+        (self.arrays.viscous, self.arrays.loss) = sums;
         let forces = self.program.place.iter().map(|p| self.arrays.x.get(*p as usize)).collect();
         std::mem::swap(&mut self.arrays.x, x_before);
         std::mem::swap(&mut self.arrays.v, v_before);

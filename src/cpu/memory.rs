@@ -2,11 +2,12 @@
 
 use crate::Precision;
 use crate::engine::SurfaceSum;
+use crate::kernels::memory::vectors;
 use crate::kernels::{Batch, Line, LineSums, NodeBatch, Row, Rows};
 use crate::memory::{Counts, Part};
 use crate::physics::element::Class;
 use crate::physics::lanes::{Instructions, Level, WIDEST};
-use crate::scene::Scene;
+use crate::scene::{Element, Scene};
 
 /// Layers of lines whose forces are in the slots at a time: one that is being finished, one that is begun, the rim's.
 const LAYERS: u64 = 3;
@@ -48,6 +49,14 @@ pub fn engine(scene: &Scene, precision: Precision) -> Part {
     let of_entry = (4 * WIDEST) as u64 + number * width * Class::<f64>::OF_POINTS.len() as u64;
     let surface =
         if scene.road.is_some() { counts.surface * (size_of::<SurfaceSum>() + 8 + 4 + 4) as u64 } else { 0 };
-    let bytes = nodes + slots + lines + elements + entries * of_entry + surface;
+    // What points remember, and the copy that a failing step is taken back to.
+    let points = match scene.body.element {
+        Element::Q1p0 | Element::Full => 8,
+        Element::UniformGradient { .. } => 1,
+    };
+    let terms = scene.body.relaxation.terms.len();
+    let remembered = if terms == 0 { 0 } else { vectors(points, terms) as u64 };
+    let memory = 2 * number * remembered * counts.elements.next_multiple_of(width);
+    let bytes = nodes + slots + lines + elements + entries * of_entry + surface + memory;
     Part { name: "engine", bytes }
 }

@@ -3,7 +3,7 @@
 use super::plan::{Plan, Share};
 use super::tables::{boundary, masses, shape_table, sub64};
 use crate::kernels::elements::Elements;
-use crate::kernels::{Field, Nodes, Passes};
+use crate::kernels::{Field, Item, Nodes, Passes};
 use crate::model::Model;
 use crate::physics::scalar::Real;
 
@@ -30,9 +30,10 @@ impl<T: Real> Program<T> {
         let rim_nodes = rim_nodes(model, &plan);
         let Plan { items, lines, shares, place, .. } = plan;
         let inverse_area = Vec::new();
+        let first_batch = first_batches(&items);
         Program {
             passes,
-            elements: Elements { items, shapes },
+            elements: Elements { items, first_batch, shapes },
             nodes: Nodes { lines, mass, inverse_mass, surface_of, rim_arms, inverse_area },
             shares,
             place,
@@ -62,6 +63,15 @@ impl<T: Real> Program<T> {
             }
         }
     }
+}
+
+/// Numbers of the items' first batches, and of all batches at the end.
+fn first_batches(items: &[Item]) -> Vec<usize> {
+    let mut first = vec![0];
+    for item in items {
+        first.push(first[first.len() - 1] + item.shapes().len());
+    }
+    first
 }
 
 /// Line and index in it of every node of the rim, in the mesh's order.

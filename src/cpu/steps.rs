@@ -11,9 +11,10 @@ use super::team::{self, SpinBarrier};
 use crate::engine::{Probe, Step, StepContact};
 use crate::kernels::Line;
 use crate::kernels::LineSums;
-use crate::kernels::elements::{Failed, ViscousStep};
+use crate::kernels::elements::{ElementStep, Failed};
 use crate::kernels::{Arrays, Shared};
 use crate::physics::lanes::WIDEST;
+use crate::physics::material::Fading;
 use crate::physics::scalar::Real;
 use crate::physics::tensor::Vec3;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -63,9 +64,9 @@ impl Failure {
     }
 }
 
-/// What viscous elements need to know of a step.
-fn viscous(step: &Step, weight: f64) -> ViscousStep {
-    ViscousStep { before: step.dt_before, weight }
+/// What elements need to know of a step that is taken.
+fn taken<'a>(step: &Step, terms: &'a [Fading]) -> ElementStep<'a> {
+    ElementStep { before: step.dt_before, weight: step.dtm(), terms, keeps: true }
 }
 
 impl<T: Real> Program<T> {
@@ -90,18 +91,18 @@ impl<T: Real> Program<T> {
         touching: u32,
         failure: &Failure,
     ) -> Taken {
-        let mut taken = Taken { rim: course.rim, contact: Vec::new(), touching };
+        let mut state = Taken { rim: course.rim, contact: Vec::new(), touching };
         for (n, step) in course.steps.iter().enumerate() {
             let c = course.early(n);
             // SAFETY: early, for a line of the share.
             let act = |line| unsafe { self.passes.nodes.step(&self.nodes, &c, line, shared, false) };
             // SAFETY: early.
-            failure.note(n, unsafe { self.early(member, shared, viscous(step, step.dtm()), act) });
+            failure.note(n, unsafe { self.early(member, shared, taken(step, &course.terms(n)), act) });
             meeting.wait();
             if failure.stopped().is_some() {
-                return taken;
+                return state;
             }
-            let c = course.late(n, &mut taken.rim, |rim| {
+            let c = course.late(n, &mut state.rim, |rim| {
                 // SAFETY: between. The rim's lines move late, and nobody is late before all have read.
                 let reaction =
                     unsafe { self.reaction(shared, course.world.gravity, course.world.local(&rim.q)) };
@@ -114,25 +115,30 @@ impl<T: Real> Program<T> {
             if member == 0 && course.world.road.is_some() {
                 // SAFETY: after, by the first member.
                 let lines = unsafe { shared.contacts(c.number) };
-                taken.contact.push(contact_of(lines, step.dtm(), &mut taken.touching));
+                state.contact.push(contact_of(lines, step.dtm(), &mut state.touching));
             }
         }
-        taken
+        state
     }
 
     /// The first step of `course`, not taken: nothing but forces and sums is written, and sums of before are kept.
     pub fn probe(&self, arrays: &mut Arrays<T>, course: &Course<T>) -> Probe {
         let window = std::mem::replace(&mut arrays.sums, vec![LineSums::default(); self.nodes.lines.len()]);
-        let power = std::mem::replace(&mut arrays.power, vec![0.0; self.elements.items.len() * WIDEST]);
+        let none = vec![0.0; self.elements.items.len() * WIDEST];
+        let viscous = std::mem::replace(&mut arrays.viscous, none.clone());
+        let loss = std::mem::replace(&mut arrays.loss, none);
         let shared = arrays.shared();
         let (world, number, step) = (course.world, course.first, &course.steps[0]);
+        let terms = &course.terms(0);
+        // What relaxation has done since the positions before counts whole: the steps have counted what was before that.
+        let half = ElementStep { before: step.dt_before, weight: 0.5 * step.dt_before, terms, keeps: false };
         team::run(self.shares.len(), |member, meeting| {
             let held = &course.rim.q;
             let c = world.probed(number, step, held, held);
             // SAFETY: early, for a line of the share.
             let act = |line| unsafe { self.passes.nodes.step(&self.nodes, &c, line, &shared, true) };
             // SAFETY: early.
-            unsafe { self.early(member, &shared, viscous(step, 0.5 * step.dt_before), act) };
+            unsafe { self.early(member, &shared, half, act) };
             meeting.wait();
             // SAFETY: between.
             let reaction = unsafe { self.reaction(&shared, world.gravity, world.local(held)) };
@@ -143,9 +149,10 @@ impl<T: Real> Program<T> {
             self.late(member, |line| unsafe { self.passes.nodes.step(&self.nodes, &c, line, &shared, true) });
         });
         let totals = total(&std::mem::replace(&mut arrays.sums, window));
-        let power = std::mem::replace(&mut arrays.power, power);
+        arrays.loss = loss;
+        let viscous = std::mem::replace(&mut arrays.viscous, viscous);
         let mut half_works = totals.works;
-        half_works.viscous = -power.iter().sum::<f64>();
+        half_works.viscous = -viscous.iter().sum::<f64>();
         half_works.internal -= half_works.viscous;
         Probe {
             mixed_kinetic: totals.mixed_kinetic,
@@ -155,14 +162,15 @@ impl<T: Real> Program<T> {
         }
     }
 
-    /// Puts the internal force on every node in the place of its position.
-    pub fn internal_forces(&self, arrays: &mut Arrays<T>) {
+    /// Puts the internal force on every node in the place of its position; `terms`: of the Prony series, which keeps nothing.
+    pub fn internal_forces(&self, arrays: &mut Arrays<T>, terms: &[Fading]) {
         let shared = arrays.shared();
+        let step = ElementStep { terms, ..ElementStep::default() };
         team::run(self.shares.len(), |member, meeting| {
             // SAFETY: early, for a line of the share; in place of a step.
             let act = |line| unsafe { self.gather_line(line, &shared) };
             // SAFETY: early.
-            unsafe { self.early(member, &shared, ViscousStep::default(), act) };
+            unsafe { self.early(member, &shared, step, act) };
             meeting.wait();
             // SAFETY: late, for a line of the share; in place of a step.
             self.late(member, |line| unsafe { self.gather_line(line, &shared) });
@@ -177,7 +185,7 @@ impl<T: Real> Program<T> {
         &self,
         member: usize,
         shared: &Shared<T>,
-        step: ViscousStep,
+        step: ElementStep,
         act: impl Fn(usize),
     ) -> Failed {
         let mut failed = Failed(None);

@@ -2,6 +2,7 @@
 
 use crate::engine::Step;
 use crate::kernels::Conditions;
+use crate::physics::material::Relaxation;
 use crate::physics::node::{Loads, Prediction, StepSize};
 use crate::physics::rim::{self, Coordinates};
 use crate::physics::scalar::Real;
@@ -18,6 +19,9 @@ pub struct World<T> {
     pub mass_damping: f64,
     /// Origin of the frame [m].
     pub frame: [f64; 3],
+    /// Prony series of the material, and shear modulus of its law [Pa].
+    pub relaxation: Relaxation,
+    pub shear_modulus: f64,
 }
 
 impl<T: Real> World<T> {

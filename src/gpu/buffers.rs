@@ -3,6 +3,7 @@
 use super::Gpu;
 use super::chains::{Chains, SHARED_CLASSES};
 use super::layout::{self, MeanClass, PointClass, PointGeometry, Real, Step, Wgsl, encode};
+use super::series;
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::physics::element::Class;
@@ -167,7 +168,7 @@ fn usage() -> wgpu::BufferUsages {
 }
 
 /// What may not fit: name, bytes, and the limit it meets.
-fn needs(gpu: &Gpu, model: &Model, chains: &Chains, road: bool, real: Real) -> [(&'static str, u64, u64); 3] {
+fn needs(gpu: &Gpu, model: &Model, chains: &Chains, road: bool, real: Real) -> [(&'static str, u64, u64); 4] {
     let binding = gpu.report.storage_binding.min(gpu.report.buffer);
     let (slots, nodes) = (chains.slot_count() as u64, model.node_count() as u64);
     let surface = if road { model.mesh.surface.len() as u64 } else { 0 };
@@ -176,6 +177,7 @@ fn needs(gpu: &Gpu, model: &Model, chains: &Chains, road: bool, real: Real) -> [
     [
         ("corner forces [bytes]", vector * slots, binding),
         ("positions [bytes]", vector * nodes, binding),
+        ("what relaxing points remember [bytes]", (real.bytes() * series::remembered(model)) as u64, binding),
         // Sums, positions and velocities of the surface come back through one buffer; the rest is small.
         ("a sample's surface [bytes]", (record + 2 * vector + 4) * surface + 65_536, gpu.report.buffer),
     ]

@@ -2,6 +2,7 @@
 
 use super::buffers::PLAN;
 use super::chains::Chains;
+use super::series;
 use crate::model::Model;
 
 /// Threads of a work group, as written in every kernel.
@@ -13,6 +14,9 @@ pub const PARTIALS: usize = 64;
 #[derive(Debug, Clone, Copy)]
 pub struct Counts {
     pub elements: usize,
+    /// Terms of a Prony series, and numbers that all points remember for it.
+    pub terms: usize,
+    pub remembered: usize,
     pub nodes: usize,
     pub surface: usize,
     pub rim: usize,
@@ -30,6 +34,8 @@ impl Counts {
     pub fn of(model: &Model, chains: &Chains, road: bool, most_groups: u32) -> Counts {
         Counts {
             elements: model.element_count(),
+            terms: model.relaxation.terms.len(),
+            remembered: series::remembered(model),
             nodes: model.node_count(),
             surface: if road { model.mesh.surface.len() } else { 0 },
             rim: model.mesh.rim.len(),

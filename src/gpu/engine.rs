@@ -8,6 +8,7 @@ use super::precision::Precision;
 use super::prepared::Prepared;
 use super::programs::Programs;
 use super::rim::FreeRim;
+use super::series::Series;
 use super::upload;
 use super::verdict::{Flags, NO_FLAGS};
 use crate::engine::StepContact;
@@ -23,6 +24,7 @@ pub struct GpuEngine {
     pub(super) pace: Pace,
     pub(super) rim: FreeRim,
     pub(super) road: Option<Road>,
+    pub(super) series: Option<Series>,
     /// For the areas of surface nodes, where friction looks at pressure.
     pub(super) mesh: Option<Mesh>,
     /// Powers of two in which the frame follows the axle [m].
@@ -66,7 +68,7 @@ impl GpuEngine {
         mut buffers: Buffers,
         seat: Option<Seat>,
     ) -> Result<Self> {
-        let Prepared { model, order, mesh, choice, counts, constants, shape, scene, grain, frame, .. } =
+        let Prepared { model, order, mesh, choice, counts, series, constants, shape, scene, grain, frame, .. } =
             prepared;
         upload::fill(gpu, &mut buffers, &model, &choice, frame, scene.road.as_ref());
         let mut programs = Programs::new(gpu, choice, constants, &buffers, &counts, shape)?;
@@ -98,6 +100,7 @@ impl GpuEngine {
             },
             rim: FreeRim::new(&model),
             road: scene.road,
+            series,
             mesh,
             grain,
             seat,

@@ -51,6 +51,7 @@ impl Engine for GpuEngine {
         self.body.restore()?;
         self.body.write_positions(&state.x);
         self.rim.q = *rim;
+        self.series.iter_mut().for_each(|series| series.rested = true);
         self.follow()?;
         self.set_velocity(&state.v, rim_rate)
     }

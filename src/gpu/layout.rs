@@ -258,6 +258,8 @@ shared! {
         slot: u32,
         /// Time before that of the positions over which the velocities are means [s].
         dt_before: f64,
+        /// Whether what relaxes in the step is kept.
+        keeps: u32,
     }
 
     /// Reference geometry at a Gauss point: M = J0^-1 J0^-T (diagonal; xy, xz, yz), its volume and 1 / det J0.

@@ -43,6 +43,7 @@ mod readback;
 mod resident;
 mod rim;
 mod sample;
+mod series;
 mod stage;
 mod steps;
 mod timing;

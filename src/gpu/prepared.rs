@@ -8,6 +8,7 @@ use super::counts::Counts;
 use super::order::{self, Order, Ordered};
 use super::precision::Precision;
 use super::resident::Shape;
+use super::series::Series;
 use super::upload::{self, Table};
 use crate::error::Result;
 use crate::model::mesh::Mesh;
@@ -16,10 +17,12 @@ use crate::scene::{Friction, Road, Scene};
 
 /// What a body of this scene needs of every kernel, before a stage says more.
 pub fn choice(model: &Model, scene: &Scene, chains: &Chains, precision: Precision) -> Choice {
+    let relaxes = !model.relaxation.terms.is_empty();
     Choice {
         element: model.element,
         law: model.law,
-        viscous: model.viscosity.is_some(),
+        viscous: model.viscosity.is_some() || relaxes,
+        relaxes,
         road: scene.road.as_ref().map(Road::name),
         friction: scene.friction,
         held: !model.mesh.held.is_empty(),
@@ -43,6 +46,7 @@ pub struct Prepared {
     pub mesh: Option<Mesh>,
     pub choice: Choice,
     pub counts: Counts,
+    pub series: Option<Series>,
     pub constants: Vec<(&'static str, f64)>,
     pub tables: Vec<Table>,
     /// How it fits into one work group, if it does.
@@ -76,11 +80,14 @@ impl Prepared {
             constants: upload::constants(&model, scene, &chains),
             tables: upload::tables(&model, &chains, &choice),
             shape: match precision {
+                // A resident kernel has no place for what points remember.
+                Precision::F32 if choice.relaxes => None,
                 Precision::F32 => Shape::new(gpu, &chains, counts.nodes),
                 // No work group's memory holds positions and forces in more than 32 bits each.
                 Precision::F32Plus | Precision::F64 => None,
             },
             counts,
+            series: Series::of(&model),
             scene: scene.clone(),
             frame: frame::shift(grain, model.mesh.axle, [0.0; 3], scene.road.as_ref()),
             grain,

@@ -147,6 +147,7 @@ impl Pass<'_> {
 pub struct Reductions {
     rim: Option<Bound>,
     pub viscous: Option<Bound>,
+    loss: Option<Bound>,
     probes: Bound,
     energies: Bound,
 }
@@ -172,6 +173,11 @@ impl Reductions {
             } else {
                 None
             },
+            loss: if choice.relaxes {
+                Some(make("viscous_loss", "partials_loss", 1, false)?)
+            } else {
+                None
+            },
             probes: make("probes", "partials_probes", PROBES, false)?,
             energies: make("energies", "partials_energies", 1, true)?,
         })
@@ -190,6 +196,11 @@ impl Reductions {
     /// Adds up the viscous works, if there are any.
     pub fn add_viscous(&self, pass: &mut wgpu::ComputePass) {
         self.viscous.iter().for_each(|viscous| viscous.dispatch(pass, [PARTIALS as u32, 1, 1], 0));
+    }
+
+    /// Adds up what relaxation and viscosity have lost, if there is any relaxation.
+    pub fn add_loss(&self, pass: &mut wgpu::ComputePass) {
+        self.loss.iter().for_each(|loss| loss.dispatch(pass, [PARTIALS as u32, 1, 1], 0));
     }
 
     /// Adds up what the probe left.

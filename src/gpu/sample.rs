@@ -20,6 +20,7 @@ impl GpuEngine {
             sums.add_energies(&mut pass);
             sums.add_rim(&mut pass);
             sums.add_viscous(&mut pass);
+            sums.add_loss(&mut pass);
         }
         if programs.choice.viscous {
             let (from, to) = (body.buffers.get("partials_viscous"), body.buffers.get("kept_viscous"));
@@ -45,7 +46,7 @@ impl GpuEngine {
 
     fn clear_sums(&self) {
         let mut encoder = self.body.gpu.device.create_command_encoder(&Default::default());
-        for name in ["rim_sums", "surface_sums", "viscous_work"] {
+        for name in ["rim_sums", "surface_sums", "viscous_work", "viscous_loss"] {
             self.body.buffers.get(name).clear(&mut encoder);
         }
         // The probe may have met the failure that the next step will report.
@@ -59,7 +60,8 @@ impl GpuEngine {
         self.body.restore()?;
         self.ready()?;
         let half = 0.5 * next.dt_before;
-        let entry = self.plan_entry((self.pace.steps, 0), next, &self.rim.q, [half, 0.0, half]);
+        let entry = self.plan_entry((self.pace.steps, 0), next, &self.rim.q, [half, 0.0, half], false);
+        self.write_fading(std::slice::from_ref(next));
         self.write_plan(&[entry]);
         let mut read = Readback::default();
         let names = [
@@ -72,10 +74,11 @@ impl GpuEngine {
             "contact_states",
             "surface_states",
             "rim_state",
+            "partials_loss",
         ];
         let parts = names.map(|n| read.add(self.body.buffers.get(n)));
         let data = read.run(&self.body.gpu, |encoder| self.encode_sample(encoder))?;
-        let [rim, viscous, half_viscous, probes, energies, sums, contact, states, rim_state] =
+        let [rim, viscous, half_viscous, probes, energies, sums, contact, states, rim_state, loss] =
             parts.map(|p| data.part(p));
         if self.programs.has_free_rim() {
             self.rim.download(&RimState::take(self.body.real(), rim_state));
@@ -104,6 +107,9 @@ impl GpuEngine {
             rim: r0[3],
             ..Works::default()
         };
+        // Viscosity alone gives nothing back.
+        let lost = |bytes: &[u8]| sum(bytes, 0).iter().sum();
+        window.dissipated = if self.series.is_some() { lost(loss) } else { -window.works.viscous };
         let (p, h, c) = (sum(probes, 0), sum(probes, 1), sum(probes, 2));
         window.kinetic = p[1];
         window.probe = Probe {

@@ -9,6 +9,7 @@ use super::readback::Readback;
 use super::upload;
 use super::verdict::{self, Taken, step_contact};
 use crate::engine::Step;
+use crate::physics::material::Pace;
 use crate::error::Result;
 use crate::physics::rim::{self, Coordinates};
 use std::time::{Duration, Instant};
@@ -20,13 +21,15 @@ const SUBMIT: Duration = Duration::from_millis(50);
 const REPORTS: [&str; 3] = ["contact_steps", "failure", "done"];
 
 impl GpuEngine {
-    /// A step as the shaders read it. `weights`: of the velocities before and after in works; of the viscous power.
+    /// A step as the shaders read it. `weights`: of the velocities before and after in works; of the viscous power. `keeps`: it is
+    /// taken, not looked at.
     pub(super) fn plan_entry(
         &self,
         (index, slot): (u64, usize),
         step: &Step,
         before: &Coordinates,
         weights: [f64; 3],
+        keeps: bool,
     ) -> layout::Step {
         let free = self.programs.has_free_rim();
         let local = |q: &Coordinates| vec4(std::array::from_fn(|d| q[d] - self.body.frame[d]));
@@ -57,6 +60,7 @@ impl GpuEngine {
             load: [step.load[0], step.load[1], step.load[2], step.load[rim::SPIN]],
             slot: slot as u32,
             dt_before: step.dt_before,
+            keeps: u32::from(keeps),
         }
     }
 
@@ -70,6 +74,17 @@ impl GpuEngine {
         self.body.buffers.get("step").write(&self.body.gpu, &bytes);
     }
 
+    /// Terms of the Prony series in the steps of a submission, or of the one that is looked at.
+    pub(super) fn write_fading(&self, steps: &[Step]) {
+        let Some(series) = &self.series else { return };
+        let paced = |(n, step): (usize, &Step)| {
+            let relaxed = self.programs.setup.relaxed || (n == 0 && series.rested);
+            series.fading(step.dt_before, step.dt, if relaxed { Pace::Relaxed } else { Pace::Timed })
+        };
+        let all: Vec<[f64; 4]> = steps.iter().enumerate().flat_map(paced).collect();
+        self.body.write("fading", &all);
+    }
+
     /// Rounds of passes that a submission of `steps` needs: a resident kernel takes all steps in one.
     pub(super) fn rounds(&self, steps: usize) -> usize {
         if self.programs.is_resident() { 1 } else { steps }
@@ -79,8 +94,9 @@ impl GpuEngine {
     pub(super) fn write_steps(&self, steps: &[Step], starts: &[Coordinates]) {
         let entry = |(n, (step, before)): (usize, (&Step, &Coordinates))| {
             let w = 0.5 * step.dtm();
-            self.plan_entry((self.pace.steps + n as u64, n), step, before, [w, w, step.dtm()])
+            self.plan_entry((self.pace.steps + n as u64, n), step, before, [w, w, step.dtm()], true)
         };
+        self.write_fading(steps);
         let entries: Vec<layout::Step> = steps.iter().zip(starts).enumerate().map(entry).collect();
         if self.programs.is_resident() {
             self.body.write("plan", &entries);
@@ -175,6 +191,7 @@ impl GpuEngine {
     /// Books steps that the device has taken.
     pub(super) fn took(&mut self, steps: &[Step], taken: &Taken) {
         self.pace.steps += steps.len() as u64;
+        self.series.iter_mut().for_each(|series| series.rested = false);
         self.pace.window_steps += steps.len() as u64;
         self.pace.flags = taken.flags;
         if self.body.counts.surface > 0 {

@@ -7,14 +7,19 @@ use super::layout::decode;
 use super::programs::element_groups;
 use super::readback::Readback;
 use crate::error::Result;
+use crate::physics::material::Pace;
 
 impl GpuEngine {
     /// Forces at `x`, `v`; see [`Engine::force`](crate::engine::Engine::force).
     pub(super) fn trial_force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {
         self.body.lend()?;
-        let Self { body, programs, .. } = self;
+        let Self { body, programs, series, .. } = self;
         body.write_positions(x);
         body.write_velocities(v, false)?;
+        if let Some(series) = series {
+            // A change of shape without time: terms resist it with all of their modulus.
+            body.write("fading", &series.fading(0.0, 0.0, Pace::Timed));
+        }
         // Velocities are those of the positions' time.
         body.buffers.get("step").write(&body.gpu, &vec![0; step_stride(body.real())]);
         let mut read = Readback::default();

@@ -7,6 +7,7 @@ use super::compose::Choice;
 use super::counts::{Counts, PARTIALS};
 use super::layout::{self, Member, Real, RimSum, SurfaceRecord, Wgsl, encode};
 use super::precision::Precision;
+use super::series;
 use crate::model::mesh::Mesh;
 use crate::model::{Model, areas};
 use crate::scene::{Friction, Road, Scene};
@@ -40,6 +41,7 @@ pub fn constants(model: &Model, scene: &Scene, chains: &Chains) -> Vec<(&'static
     let mut all = model.law.constants();
     all.push(("eta", model.viscosity.unwrap_or(0.0)));
     all.extend(["gravity_x", "gravity_y", "gravity_z"].into_iter().zip(scene.gravity));
+    all.extend(series::constants(model));
     all.push(("face_slots", chains.face as f64));
     all.extend(chains.lattice.iter().flat_map(|l| l.constants(chains.longest)));
     all.extend(scene.friction.iter().flat_map(Friction::constants));
@@ -134,6 +136,9 @@ pub fn create(gpu: &Gpu, tables: &[Table], choice: &Choice, counts: &Counts, bod
     parts("energies", vector, threads);
     // Summed four by four.
     parts("viscous_work", scalar, if choice.viscous { threads } else { 4 });
+    parts("viscous_loss", scalar, if choice.relaxes { threads } else { 4 });
+    parts("memory", scalar, counts.remembered);
+    parts("fading", vector, PLAN * counts.terms);
     parts("rim_sums", RimSum::size(real), counts.rim);
     parts("surface_sums", SurfaceRecord::size(real), surface);
     parts("surface_states", vector, 2 * surface);
@@ -149,6 +154,7 @@ pub fn create(gpu: &Gpu, tables: &[Table], choice: &Choice, counts: &Counts, bod
         ("partials_rim", 2),
         ("partials_viscous", 1),
         ("kept_viscous", 1),
+        ("partials_loss", 1),
         ("partials_probes", 4),
         ("partials_energies", 1),
     ] {
@@ -169,6 +175,7 @@ pub fn largest_part(counts: &Counts, real: Real) -> u64 {
         (counts.contact_records(), vector),
         (counts.nodes, vector),
         (counts.slots, vector),
+        (counts.remembered, f64::size(real)),
         (counts.surface, SurfaceRecord::size(real)),
     ];
     parts.iter().map(|(count, size)| (part_stride(*count) * size) as u64).max().unwrap_or(1)

@@ -58,6 +58,7 @@ impl Books {
         if in_time {
             let viscous = -0.5 * dt * (self.viscous_power + s.viscous_power);
             self.window.works.viscous += viscous;
+            self.window.dissipated -= viscous;
             self.window.works.internal -= viscous;
         }
         let axle = [s.q[0], s.q[1], s.q[2]];

@@ -3,12 +3,13 @@
 
 use super::fetch::{Copied, copy_of_thread, corners};
 use super::layout::Item;
+use super::memory::LaneMemory;
 use super::scatter::{add_batch, add_loose};
 use super::shared::Shared;
 use super::state::Aligned;
 use crate::physics::element::{Compose, Composition, Formulation, LaneShapes};
 use crate::physics::lanes::{InLanes, Instructions, Lanes, first};
-use crate::physics::material::{Hyperelastic, Viscosity};
+use crate::physics::material::{Fading, Hyperelastic, Viscosity};
 use crate::physics::scalar::{Real, Scalar};
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -16,6 +17,8 @@ use std::ops::Range;
 /// Constant data of the element passes.
 pub struct Elements<T> {
     pub items: Vec<Item>,
+    /// Number of each item's first batch, and of all batches at the end.
+    pub first_batch: Vec<usize>,
     /// Reference geometry by lanes, an entry of [`Class::NUMBERS`] vectors each.
     pub shapes: Aligned<T>,
 }
@@ -24,18 +27,22 @@ pub struct Elements<T> {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Failed(pub Option<usize>);
 
-/// What viscous elements need to know of a step.
+/// What viscous elements, and those that remember, need to know of a step.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct ViscousStep {
+pub struct ElementStep<'a> {
     /// Time before that of the positions over which the velocities are means [s].
     pub before: f64,
-    /// Weight of viscous power in the sums of items.
+    /// Weight of powers in the sums of items.
     pub weight: f64,
+    /// Terms of the Prony series.
+    pub terms: &'a [Fading],
+    /// Whether what relaxes in the step is kept.
+    pub keeps: bool,
 }
 
 /// An element pass, composed for one formulation, law and viscosity.
 pub trait ElementPass<T>: Send + Sync {
-    /// Corner forces of an item onto the slots of its lines; viscous power [W] times its weight is added to the item's sums.
+    /// Corner forces of an item onto the slots of its lines; viscous work and loss [J] are added to the item's sums.
     ///
     /// # Safety
     /// An item of the early phase of [`Shared`]'s contract.
@@ -44,11 +51,14 @@ pub trait ElementPass<T>: Send + Sync {
         elements: &Elements<T>,
         item: usize,
         shared: &Shared<T>,
-        step: ViscousStep,
+        step: ElementStep,
     ) -> Failed;
 
     /// The numbers of a class that it reads: [`Formulation::NUMBERS`].
     fn numbers(&self) -> Range<usize>;
+
+    /// Points of an element that remember: none without a Prony series.
+    fn points(&self) -> usize;
 }
 
 /// Composes the pass for these instructions; `extruded`: all elements are plane figures extruded along eta.
@@ -92,16 +102,20 @@ impl<T: Real, F: Formulation, L: Hyperelastic, V: Viscosity, I: Instructions> El
         F::NUMBERS
     }
 
+    fn points(&self) -> usize {
+        if V::REMEMBERS { F::POINTS } else { 0 }
+    }
+
     unsafe fn forces(
         &self,
         elements: &Elements<T>,
         item: usize,
         shared: &Shared<T>,
-        step: ViscousStep,
+        step: ElementStep,
     ) -> Failed {
-        let (law, viscosity, weight) = (self.law, self.viscosity.over(step.before), step.weight);
+        let (law, viscosity) = (self.law, self.viscosity.over(step.before));
         let kind = PhantomData::<F>;
-        self.instructions.call(Pass { law, viscosity, elements, item, shared, weight, kind })
+        self.instructions.call(Pass { law, viscosity, elements, item, shared, step, kind })
     }
 }
 
@@ -112,7 +126,7 @@ struct Pass<'a, T, F, L, V> {
     elements: &'a Elements<T>,
     item: usize,
     shared: &'a Shared<'a, T>,
-    weight: f64,
+    step: ElementStep<'a>,
     kind: PhantomData<F>,
 }
 
@@ -132,15 +146,25 @@ impl<T: Real, F: Formulation, L: Hyperelastic, V: Viscosity> InLanes<T> for Pass
             unsafe { copy.read(loose, places, N::WIDTH, V::ON) };
         }
         let mut carry = [[N::zero(); 3]; 4];
-        let mut report = Report { failed: Failed(None), power: N::zero() };
+        let zero = N::zero();
+        let mut report = Report { failed: Failed(None), work: zero, loss: zero };
+        let weight = N::from_f64(self.step.weight);
         for (b, &shape) in item.shapes().iter().enumerate() {
             let shape = shape_at::<N, F>(elements, shape);
             // SAFETY: the promise of `ElementPass::forces`; an item has an entry of the table of shapes for every batch.
             let at = unsafe { corners::<N>(item, b, places, copy, V::ON) };
-            let force = F::force(&law, &viscosity, &shape, &at.x, &at.v);
+            let batch = elements.first_batch[self.item] + b;
+            // SAFETY: a batch of the item, whose part of the memory is the item's.
+            let mut memory = unsafe { LaneMemory::<N>::new(shared, batch, F::POINTS, &self.step) };
+            let force = F::force(&law, &viscosity, &shape, &at.x, &at.v, &mut memory);
             // SAFETY: as above, and batches come in order.
             unsafe { add_batch(item, b, places, copy, &mut carry, &force.f) };
-            report.note::<V>(item.elements(), b * N::WIDTH, force.viscous_power, force.min_j);
+            let loss = weight * (force.viscous_power + force.memory_loss);
+            let work = weight.mul_add(force.viscous_power, force.memory_work);
+            report.note::<V>(item.elements(), b * N::WIDTH, [work, loss], force.min_j);
+            if V::REMEMBERS && self.step.keeps {
+                memory.add_loss(loss);
+            }
         }
         // SAFETY: as above; the sums are the item's, one a lane.
         unsafe {
@@ -148,7 +172,8 @@ impl<T: Real, F: Formulation, L: Hyperelastic, V: Viscosity> InLanes<T> for Pass
                 add_loose(loose, places, copy, N::WIDTH);
             }
             if V::ON {
-                (report.power * N::from_f64(self.weight)).add_to(shared.power(self.item));
+                report.work.add_to(shared.viscous(self.item));
+                report.loss.add_to(shared.loss(self.item));
             }
         }
         report.failed
@@ -158,18 +183,20 @@ impl<T: Real, F: Formulation, L: Hyperelastic, V: Viscosity> InLanes<T> for Pass
 /// What is said of an item beside its forces.
 struct Report<N> {
     failed: Failed,
-    /// Viscous power [W].
-    power: N,
+    /// Viscous work and loss [J].
+    work: N,
+    loss: N,
 }
 
 impl<N: Lanes> Report<N> {
     /// Of a batch that begins with element `at` of the item. Lanes beyond the last element compute with other nodes: they say
     /// nothing.
     #[inline(always)]
-    fn note<V: Viscosity>(&mut self, elements: &[u32], at: usize, power: N, min_j: N) {
+    fn note<V: Viscosity>(&mut self, elements: &[u32], at: usize, [work, loss]: [N; 2], min_j: N) {
         let count = N::WIDTH.min(elements.len() - at);
         if V::ON {
-            self.power += power.choose(N::zero(), first(count));
+            self.work += work.choose(N::zero(), first(count));
+            self.loss += loss.choose(N::zero(), first(count));
         }
         let min_j = min_j.choose(N::one(), first(count));
         if min_j.any_not_positive() && self.failed.0.is_none() {

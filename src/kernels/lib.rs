@@ -12,6 +12,7 @@ pub mod elements;
 pub mod energies;
 mod fetch;
 mod layout;
+pub mod memory;
 pub mod nodes;
 mod rows;
 mod scatter;

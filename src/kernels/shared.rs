@@ -1,6 +1,6 @@
 //! What the threads of a step write, and the contract under which they do.
 
-use super::state::Field;
+use super::state::{Aligned, Field};
 use super::sums::{LineContact, LineSums, SurfaceSum};
 use crate::physics::lanes::WIDEST;
 use crate::physics::scalar::Real;
@@ -13,8 +13,11 @@ pub struct Arrays<T> {
     pub v: Field<T>,
     /// Forces, by slot.
     pub f: Field<T>,
-    /// Viscous work so far of the window [J], by item and lane.
-    pub power: Vec<f64>,
+    /// Viscous work, taken by the stresses, and loss so far of the window [J], by item and lane.
+    pub viscous: Vec<f64>,
+    pub loss: Vec<f64>,
+    /// What the points remember ([`super::memory`]).
+    pub memory: Aligned<T>,
     /// Sums of the window so far, by line.
     pub sums: Vec<LineSums>,
     /// Sums of the window so far, and the last step in which a node touched plus one (0: never), by surface node.
@@ -31,6 +34,8 @@ pub struct Sizes {
     pub places: usize,
     pub forces: usize,
     pub items: usize,
+    /// Numbers that all points remember.
+    pub memory: usize,
     pub lines: usize,
     /// Lines that can touch the road, and their nodes that can.
     pub surface_lines: usize,
@@ -44,7 +49,9 @@ impl<T: Real> Arrays<T> {
             x: Field::zeros(sizes.places),
             v: Field::zeros(sizes.places),
             f: Field::zeros(sizes.forces),
-            power: vec![0.0; sizes.items * WIDEST],
+            viscous: vec![0.0; sizes.items * WIDEST],
+            loss: vec![0.0; sizes.items * WIDEST],
+            memory: Aligned::zeros(sizes.memory),
             sums: vec![LineSums::default(); sizes.lines],
             surface: vec![SurfaceSum::default(); sizes.surface_nodes],
             last_touch: vec![0; sizes.surface_nodes],
@@ -58,7 +65,9 @@ impl<T: Real> Arrays<T> {
             x: self.x.pointers(),
             v: self.v.pointers(),
             f: self.f.pointers(),
-            power: self.power.as_mut_ptr(),
+            viscous: self.viscous.as_mut_ptr(),
+            loss: self.loss.as_mut_ptr(),
+            memory: self.memory.pointer(),
             sums: self.sums.as_mut_ptr(),
             surface: self.surface.as_mut_ptr(),
             last_touch: self.last_touch.as_mut_ptr(),
@@ -78,7 +87,7 @@ impl<T: Real> Arrays<T> {
 ///
 /// | phase | a member, for | reads | writes |
 /// |---|---|---|---|
-/// | early | an item of its share, once | `x`, `v` of the item's lines | slots of the item's group, the item's `power` |
+/// | early | an item of its share, once | `x`, `v` of the item's lines | slots of the item's group, the item's `viscous`, `loss` and `memory` |
 /// | early | a line of its share, after the item before it in the share | the line's slots | the line's `x`, `v`, `sums`, `contact` of this step, entries of its surface nodes; its slots, to clear them |
 /// | between | any line that moves late | its slots, its `x` | |
 /// | late | a late line of its share | as an early line | as an early line |
@@ -86,7 +95,7 @@ impl<T: Real> Arrays<T> {
 ///
 /// The phase after a step is the early one of the next step, which writes the other half of `contact`.
 ///
-/// The layout makes that enough. A group belongs to one member, and no two items' `power` is the same, so forces of
+/// The layout makes that enough. A group belongs to one member, and no two items' sums and memory are the same, so forces of
 /// different members never meet. An early line is touched by items of its own member alone, and by none of them after
 /// it has moved, so nobody reads nodes that move. A slot passes from one line to another within one member's share, once
 /// the first line has moved; late lines keep theirs. Every line moves once, in one share. Places, slots and indices
@@ -96,7 +105,9 @@ pub struct Shared<'a, T> {
     pub x: [*mut T; 3],
     pub v: [*mut T; 3],
     pub f: [*mut T; 3],
-    power: *mut f64,
+    viscous: *mut f64,
+    loss: *mut f64,
+    memory: *mut T,
     sums: *mut LineSums,
     surface: *mut SurfaceSum,
     last_touch: *mut u64,
@@ -126,10 +137,21 @@ impl<T: Real> Shared<'_, T> {
         Places { x: self.x, v: self.v, f: self.f }
     }
 
-    /// Sums of viscous power of an item, one a lane.
+    /// Sums of viscous work of an item, one a lane; and of its loss.
     #[inline(always)]
-    pub fn power(&self, item: usize) -> *mut f64 {
-        self.power.wrapping_add(item * WIDEST)
+    pub fn viscous(&self, item: usize) -> *mut f64 {
+        self.viscous.wrapping_add(item * WIDEST)
+    }
+
+    #[inline(always)]
+    pub fn loss(&self, item: usize) -> *mut f64 {
+        self.loss.wrapping_add(item * WIDEST)
+    }
+
+    /// Memory of all batches.
+    #[inline(always)]
+    pub fn memory(&self) -> *mut T {
+        self.memory
     }
 
     /// Sums of a line.

@@ -3,7 +3,7 @@
 use super::dual::Dual;
 use crate::physics::element::{Class, Compose, Composition, Corners, Energy, Formulation, Shape};
 use crate::physics::lanes::{InLanes, Instructions, Lanes};
-use crate::physics::material::{Hyperelastic, Law, Viscosity};
+use crate::physics::material::{Forgetful, Hyperelastic, Law, Viscosity};
 use std::marker::PhantomData;
 
 /// Force of an element at a configuration.
@@ -87,7 +87,7 @@ impl<F: Formulation, L: Hyperelastic, V: Viscosity> InLanes<f64> for Columns<'_,
                     moving[a][i] = Dual { value: v[a][i], tangent: N::splat(rate[a]).choose(zero, here) };
                 }
             }
-            let force = F::force(&law, &viscosity, &Constant(class), &at, &moving);
+            let force = F::force(&law, &viscosity, &Constant(class), &at, &moving, &mut Forgetful);
             for a in 0..8 {
                 for i in 0..3 {
                     // SAFETY: 24 is a multiple of every width.
@@ -101,7 +101,7 @@ impl<F: Formulation, L: Hyperelastic, V: Viscosity> InLanes<f64> for Columns<'_,
 
 impl<F: Formulation, L: Hyperelastic, V: Viscosity> ElementForces for Composed<F, L, V, ()> {
     fn force(&self, class: &Class<f64>, x: &Corners<f64>, v: &Corners<f64>) -> ElementForce {
-        let force = F::force(&self.law, &self.viscosity, class, x, v);
+        let force = F::force(&self.law, &self.viscosity, class, x, v, &mut Forgetful);
         ElementForce { f: force.f, min_j: force.min_j, viscous_power: force.viscous_power }
     }
 

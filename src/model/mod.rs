@@ -12,6 +12,7 @@ pub mod shuffle;
 
 use crate::error::{Error, Result};
 use crate::physics::element::{Class, Composition};
+use crate::physics::material::Relaxation;
 use crate::scene::{Body, Element, Hold, Law, Lumping, Rim, Scene};
 use mesh::{Mesh, UnknownSet};
 use std::sync::Arc;
@@ -24,6 +25,8 @@ pub struct Model {
     pub element: Element,
     /// Shear viscosity [Pa s].
     pub viscosity: Option<f64>,
+    /// Prony series; no terms: nothing relaxes.
+    pub relaxation: Relaxation,
     pub density: f64,
     pub lumping: Lumping,
     /// Lumped nodal mass [kg], shape `[node_count]`.
@@ -56,7 +59,7 @@ impl Model {
 
     /// Assembles any mesh; `Err(element)` names an inside-out element.
     pub fn from_mesh(mesh: Mesh, body: &Body) -> std::result::Result<Model, usize> {
-        let Body { law, element, viscosity, density, lumping, .. } = *body;
+        let Body { law, element, viscosity, ref relaxation, density, lumping, .. } = *body;
         let hourglass = match element {
             Element::UniformGradient { hourglass } => hourglass,
             Element::Q1p0 | Element::Full => 0.0,
@@ -71,6 +74,7 @@ impl Model {
             law,
             element,
             viscosity,
+            relaxation: relaxation.clone(),
             density,
             lumping,
             mass,
@@ -91,7 +95,8 @@ impl Model {
 
     /// What the elements' forces are made of.
     pub fn composition(&self) -> Composition {
-        Composition { element: self.element, law: self.law, viscosity: self.viscosity }
+        let relaxes = !self.relaxation.terms.is_empty();
+        Composition { element: self.element, law: self.law, viscosity: self.viscosity, relaxes }
     }
 
     /// Whether every element is a plane figure extruded along eta.

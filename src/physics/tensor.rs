@@ -85,6 +85,19 @@ impl<S: Scalar> Sym3<S> {
         Sym3 { xx: o, yy: o, zz: o, xy: o, xz: o, yz: o }
     }
 
+    /// self + c other
+    #[inline(always)]
+    pub fn plus(&self, c: S, other: &Sym3<S>) -> Self {
+        Sym3 {
+            xx: c.mul_add(other.xx, self.xx),
+            yy: c.mul_add(other.yy, self.yy),
+            zz: c.mul_add(other.zz, self.zz),
+            xy: c.mul_add(other.xy, self.xy),
+            xz: c.mul_add(other.xz, self.xz),
+            yz: c.mul_add(other.yz, self.yz),
+        }
+    }
+
     /// Columns.
     #[inline(always)]
     pub fn columns(&self) -> Mat3<S> {
@@ -104,6 +117,19 @@ impl<S: Scalar> Sym3<S> {
 
     pub fn to_array(self) -> [S; 6] {
         [self.xx, self.yy, self.zz, self.xy, self.xz, self.yz]
+    }
+}
+
+/// Gram matrix A^T A.
+#[inline(always)]
+pub fn gram<S: Scalar>(a: &Mat3<S>) -> Sym3<S> {
+    Sym3 {
+        xx: dot(a[0], a[0]),
+        yy: dot(a[1], a[1]),
+        zz: dot(a[2], a[2]),
+        xy: dot(a[0], a[1]),
+        xz: dot(a[0], a[2]),
+        yz: dot(a[1], a[2]),
     }
 }
 

@@ -34,6 +34,8 @@ pub struct Ledger {
     pub friction_energy: Vec<f64>,
     /// Work that the road's motion has put in [J].
     pub road_work: f64,
+    /// Energy that viscosity and relaxation have turned into heat [J].
+    dissipated: f64,
 }
 
 /// Where and when a window ends.
@@ -94,6 +96,7 @@ impl Ledger {
         let work_on_rim = self.rim_kinetic - self.rim_given;
         self.works.accumulate(&w.works);
         self.book_friction(w);
+        self.dissipated += w.dissipated;
         (self.kinetic, self.mixed_kinetic) = (w.kinetic, w.probe.mixed_kinetic);
         let works = &self.works;
         let outer = works.without_internal();
@@ -148,6 +151,7 @@ impl Ledger {
             stored_balance_error_J: stored,
             min_jacobian: w.min_jacobian,
             dt_s: end.dt,
+            dissipation_J: self.dissipated,
             ..row
         }
     }

@@ -6,7 +6,7 @@ use super::motion::RimState;
 use super::observer::Observer;
 use super::state::{Run, State};
 use super::totals::Totals;
-use crate::engine::Engine;
+use crate::engine::{Engine, StageSetup};
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::physics::rim;
@@ -56,7 +56,8 @@ impl Run<'_> {
         let State { totals, rim, recorder, .. } = &mut self.state;
         let start = totals.time;
         rim.motion = rim.motion.next(stage, start, rim.at, rim.rate);
-        self.engine.begin_stage(&rim.motion.setup(stage.mass_damping))?;
+        let relaxed = stage.is_quasi_static();
+        self.engine.begin_stage(&StageSetup { relaxed, ..rim.motion.setup(stage.mass_damping) })?;
         // Mass and inertia belong to a component for as long as it is free.
         totals.ledger.rim_set(rim.own_kinetic());
         let chatter = Chatter::new(self.around, start, stage.duration);

@@ -12,7 +12,7 @@ mod units;
 
 pub use crate::physics::element::{Element, Lumping};
 pub use crate::physics::friction::Friction;
-pub use crate::physics::material::Law;
+pub use crate::physics::material::{Law, Relaxation};
 pub use crate::physics::road::Road;
 pub use node_set::NodeSet;
 
@@ -57,8 +57,17 @@ impl Scene {
             what: format!("{}: {what} in an implicit stage", self.file.display()),
             instead: instead.into(),
         };
-        (!self.holds.is_empty() && self.road.is_some())
-            .then(|| error("[[hold]] beside a [road]", "use explicit stages, or remove one of the two"))
+        if !self.holds.is_empty() && self.road.is_some() {
+            return Some(error("[[hold]] beside a [road]", "use explicit stages, or remove one of the two"));
+        }
+        let dynamic = |stage: &Stage| match stage.method {
+            Method::Implicit(implicit) => matches!(implicit.scheme, ImplicitScheme::Dynamic { .. }),
+            Method::Explicit | Method::QuasiStatic { .. } => false,
+        };
+        (!self.body.relaxation.terms.is_empty() && self.stages.iter().any(dynamic)).then(|| {
+            let instead = "use explicit stages, or a static one, in which everything has relaxed";
+            error("[body.material.relaxation] with a dynamic scheme", instead)
+        })
     }
 }
 
@@ -77,6 +86,8 @@ pub struct Body {
     pub law: Law,
     /// Kelvin-Voigt shear viscosity [Pa s]; `None`: purely elastic, and no viscous code is composed.
     pub viscosity: Option<f64>,
+    /// Prony series on the isochoric part of the law, which is that of slow deformation; no terms: nothing relaxes.
+    pub relaxation: Relaxation,
     pub element: Element,
     /// Hourglass energy over strain energy at which a run is ended, > 0; `None`: it goes on with a warning.
     pub hourglass_limit: Option<f64>,

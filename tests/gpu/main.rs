@@ -14,6 +14,7 @@ mod far;
 mod forces;
 mod functions;
 mod laws;
+mod relaxing;
 mod repeat;
 mod resident;
 mod rig;
@@ -32,7 +33,7 @@ use std::sync::Arc;
 
 type Check = fn(&Gpu);
 
-const CHECKS: [(&str, Check); 29] = [
+const CHECKS: [(&str, Check); 31] = [
     ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
     ("forces_as_pairs_are_the_cpus", forces::pairs),
     ("forces_of_every_numbering_are_the_cpus", forces::every_numbering),
@@ -45,6 +46,8 @@ const CHECKS: [(&str, Check); 29] = [
     ("an_axle_pressed_by_a_force_moves_as_on_the_cpu", rim::pressed_by_a_force),
     ("a_wheel_free_to_spin_turns_as_on_the_cpu", rim::free_to_spin),
     ("a_block_and_its_rim_fall_together", rim::falls),
+    ("what_relaxes_is_the_cpus", relaxing::agrees),
+    ("what_points_remember_is_left_alone", relaxing::disturbed),
     ("a_rerun_is_the_same_to_the_bit", repeat::bit_identical),
     ("far_from_the_origin_forces_are_the_same", far::offset),
     ("the_frame_follows_a_fast_wheel", far::followed),
@@ -65,13 +68,14 @@ const CHECKS: [(&str, Check); 29] = [
 ];
 
 /// Where the adapter has double precision.
-const DOUBLES: [(&str, Check); 6] = [
+const DOUBLES: [(&str, Check); 7] = [
     ("functions_of_doubles_are_the_hosts", functions::doubles),
     ("forces_in_doubles_are_the_cpus", forces::doubles),
     ("steps_in_doubles_are_the_cpus", steps::doubles),
     ("a_pressed_wheel_in_doubles_is_the_cpus", runs::doubles),
     ("a_free_wheel_in_doubles_turns_as_on_the_cpu", rim::doubles),
     ("friction_laws_in_doubles_are_the_cpus", laws::doubles),
+    ("what_relaxes_in_doubles_is_the_cpus", relaxing::doubles),
 ];
 
 /// A page of `hexroll report parity`, which stands for this suite where there is nothing but the program.

@@ -38,7 +38,7 @@ fn plan(model: &Model, windows: &[&[f64]]) -> Plan {
     };
     let windows: Vec<Vec<Step>> = windows.iter().map(|w| w.iter().map(|&dt| step(dt)).collect()).collect();
     let next = step(4e-6);
-    let setup = StageSetup { mass_damping: 500.0, free: [None; 6] };
+    let setup = StageSetup { mass_damping: 500.0, ..Default::default() };
     let mut random = noise(3);
     let field = |_| {
         let v = random.within(0.5);

@@ -14,7 +14,7 @@ const HEADER: &str = "time_s,stage,road_fx_N,road_fy_N,road_fz_N,road_fx_std_N,r
                       rim_angle_rad,steer_rad,camber_rad,contact_area_m2,contact_nodes,sticking_share,\
                       changing_share,footprint_length_m,footprint_width_m,peak_pressure_Pa,kinetic_J,strain_J,hourglass_J,external_work_J,friction_work_J,road_work_J,\
                       contact_work_J,damping_work_J,viscous_work_J,balance_error_J,stored_balance_error_J,\
-                      min_jacobian,dt_s";
+                      min_jacobian,dt_s,dissipation_J";
 
 #[test]
 fn the_history_has_the_specified_columns_in_their_order() {

@@ -10,7 +10,7 @@ use hexroll::scene::{
     Scene, Snapshots,
 };
 
-use crate::good;
+use crate::{GOOD, good};
 
 fn near(a: f64, b: f64) {
     // A conversion rounds a few times: a relative 1e-15 is a few units in the last place.
@@ -108,6 +108,56 @@ fn zero_viscosity_and_zero_friction_are_absent() {
     assert_eq!(good(&["body.material.viscosity=0 Pa s"]).unwrap().body.viscosity, None);
     assert_eq!(good(&["body.material.viscosity=20 Pa s"]).unwrap().body.viscosity, Some(20.0));
     assert_eq!(good(&["friction.coefficient=0"]).unwrap().friction, None);
+}
+
+/// The material's Prony series, and the shear modulus of its law [Pa].
+fn relaxing(section: &str) -> (Vec<(f64, f64)>, f64) {
+    let text = GOOD.replace("[rim]", &format!("[body.material.relaxation]\n{section}\n[rim]"));
+    let body = Scene::parse(&text, "relaxing.toml", &[]).unwrap().body;
+    (body.relaxation.terms.iter().map(|t| (t.ratio, t.time)).collect(), body.law.shear_modulus())
+}
+
+#[test]
+fn a_prony_series_is_read_in_every_convention() {
+    let modulus = good(&[]).unwrap().body.law.shear_modulus();
+    let term = "terms = [{ ratio = 0.3, time = \"0.1 s\" }]";
+    let (terms, law) = relaxing(term);
+    near(terms[0].0, 0.3 / 0.7);
+    assert_eq!((terms.len(), terms[0].1, law), (1, 0.1, modulus));
+    // The law of a sudden strain: 0.7 of it is left.
+    let (terms, law) = relaxing(&format!("{term}\nconstants = \"instantaneous\""));
+    near(terms[0].0, 0.3 / 0.7);
+    near(law, 0.7 * modulus);
+    let (terms, law) =
+        relaxing("terms = [{ ratio = 0.5, time = \"1 s\" }, { ratio = 1.5, time = \"2 ms\" }]\nratios = \"of-long-term\"");
+    assert_eq!((terms, law), (vec![(0.5, 1.0), (1.5, 0.002)], modulus));
+    // At the reference nothing is shifted; c1 = 10, c2 = 40 and 10 K above it make all times 100 times shorter.
+    let shifted = |temperature: f64| {
+        let shift = format!("shift = {{ c1 = 10, c2 = 40, reference = 20, temperature = {temperature} }}");
+        relaxing(&format!("{term}\n{shift}")).0[0].1
+    };
+    near(shifted(20.0), 0.1);
+    near(shifted(30.0), 0.001);
+}
+
+#[test]
+fn a_prony_series_that_cannot_be_is_refused() {
+    let refused = |section: &str, key: &str, problem: &str| {
+        let text = GOOD.replace("[rim]", &format!("[body.material.relaxation]\n{section}\n[rim]"));
+        let shown = Scene::parse(&text, "bad.toml", &[]).expect_err("a mistake").to_string();
+        assert!(shown.contains(key) && shown.contains(problem), "{section}: {shown}");
+    };
+    refused("terms = []", "body.material.relaxation.terms", "without a term");
+    refused("terms = [{ ratio = 0.6, time = \"1 s\" }, { ratio = 0.4, time = \"2 s\" }]", "terms", "nothing is left");
+    refused("terms = [{ ratio = -0.1, time = \"1 s\" }]", "terms.0.ratio", "positive");
+    refused("terms = [{ ratio = 0.1, time = \"0 s\" }]", "terms.0.time", "positive");
+    refused("terms = [{ ratio = 0.1, tau = \"1 s\" }]", "terms.0.tau", "unknown key");
+    let cold = "terms = [{ ratio = 0.1, time = \"1 s\" }]\nshift = { c1 = 17, c2 = 50, reference = 20, temperature = -40 }";
+    refused(cold, "shift.temperature", "no end");
+    let dynamic = GOOD.replace("[rim]", "[body.material.relaxation]\nterms = [{ ratio = 0.1, time = \"1 s\" }]\n[rim]");
+    let eq4 = dynamic.replace("law = \"mooney-rivlin\"", "law = \"mooney-rivlin-eq4\"");
+    let shown = Scene::parse(&eq4, "bad.toml", &[]).expect_err("a mistake").to_string();
+    assert!(shown.contains("no isochoric part"), "{shown}");
 }
 
 #[test]

@@ -102,7 +102,11 @@ impl GpuPlan {
                 Drive::Free { mass, .. } => Some(mass),
                 _ => None,
             });
-            let choice = scene_choice.for_stage(&StageSetup { mass_damping: stage.mass_damping, free });
+            let choice = scene_choice.for_stage(&StageSetup {
+                mass_damping: stage.mass_damping,
+                free,
+                relaxed: stage.is_quasi_static(),
+            });
             let small = Shape::within(THREADS, MEMORY, &chains, model.node_count()).is_some();
             for (kernel, runs) in stage_kernels(&choice, small) {
                 let new = program(&choice, kernel, runs)?;

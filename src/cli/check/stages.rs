@@ -6,6 +6,7 @@ use super::Piece;
 use crate::estimate::Steps;
 use crate::format::si;
 use hexroll::model::mesh::NodeSets;
+use hexroll::physics::material::Term;
 use hexroll::scene::{
     Drive, Field, ImplicitScheme, InitialVelocity, Method, Picture, RimMotion, Scene, Slip, Snapshots, Stage,
 };
@@ -91,6 +92,7 @@ pub fn pieces(scene: &Scene, sets: &NodeSets) -> Vec<Piece> {
     let piece = |name, detail| Piece { name, detail };
     vec![
         piece("viscosity", scene.body.viscosity.map(|eta| format!("Kelvin-Voigt, {eta} Pa s in shear"))),
+        piece("relaxation", relaxation(scene)),
         piece("mass damping", (!damped.is_empty()).then(|| format!("in stage {}", damped.join(", ")))),
         piece("gravity", (scene.gravity != [0.0; 3]).then(|| format!("{:?} m/s2", scene.gravity))),
         piece("held components", (!scene.holds.is_empty()).then(|| holds(scene, sets))),
@@ -104,6 +106,18 @@ pub fn pieces(scene: &Scene, sets: &NodeSets) -> Vec<Piece> {
                 .map(|_| if free { "rigid, some components free" } else { "rigid, prescribed" }.into()),
         ),
     ]
+}
+
+/// Terms of the Prony series, and the modulus at once.
+fn relaxation(scene: &Scene) -> Option<String> {
+    let series = &scene.body.relaxation;
+    let instantaneous = series.instantaneous();
+    let term = |t: &Term| format!("{:.4} in {}", t.ratio / instantaneous, si(t.time, "s"));
+    let terms: Vec<String> = series.terms.iter().map(term).collect();
+    (!terms.is_empty()).then(|| {
+        let modulus = scene.body.law.shear_modulus() * instantaneous;
+        format!("Prony series, shares {}; instantaneous shear modulus {}", terms.join(", "), si(modulus, "Pa"))
+    })
 }
 
 fn holds(scene: &Scene, sets: &NodeSets) -> String {

@@ -60,12 +60,13 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Lengths of the arrays that its steps write, with so many surface nodes.
-    pub fn sizes(&self, surface_nodes: usize) -> Sizes {
+    /// Lengths of the arrays that its steps write, with so many surface nodes, and so many numbers that a batch remembers.
+    pub fn sizes(&self, surface_nodes: usize, memory: usize) -> Sizes {
         Sizes {
             places: self.places,
             forces: self.forces,
             items: self.items.len(),
+            memory: memory * self.items.iter().map(|item| item.shapes().len()).sum::<usize>(),
             lines: self.lines.len(),
             surface_lines: self.surface_lines,
             surface_nodes,

@@ -112,7 +112,10 @@ pub enum RimKind {
 pub struct Choice {
     pub element: Element,
     pub law: Law,
+    /// Whether velocities are read: a viscosity, or a Prony series.
     pub viscous: bool,
+    /// Whether points remember, by a Prony series.
+    pub relaxes: bool,
     /// The road's name in a scene file.
     pub road: Option<&'static str>,
     pub friction: Option<Friction>,

@@ -37,7 +37,7 @@ pub fn filled(choice: &Choice, kernel: Kernel) -> Vec<Filled> {
 
 /// What an element's force and energy are.
 fn element_roles(choice: &Choice) -> Vec<Filled> {
-    let Choice { extruded, viscous, .. } = *choice;
+    let Choice { extruded, viscous, relaxes, .. } = *choice;
     let has_i2 = choice.law.has_i2();
     let (element, mean) = match choice.element {
         Element::Q1p0 => ("q1p0", false),
@@ -55,14 +55,17 @@ fn element_roles(choice: &Choice) -> Vec<Filled> {
         ("coupling", if extruded && !has_i2 { "plane" } else { "any" }),
         (
             "force",
-            match (mean, viscous) {
-                (false, false) => "points_elastic",
-                (false, true) => "points_viscous",
-                (true, false) => "mean_elastic",
-                (true, true) => "mean_viscous",
+            match (mean, viscous, relaxes) {
+                (false, _, true) => "points_relaxing",
+                (false, false, false) => "points_elastic",
+                (false, true, false) => "points_viscous",
+                (true, _, true) => "mean_relaxing",
+                (true, false, false) => "mean_elastic",
+                (true, true, false) => "mean_viscous",
             },
         ),
         ("viscosity", if viscous { "kelvin_voigt" } else { "none" }),
+        ("memory", if relaxes { "prony" } else { "none" }),
     ]
 }
 

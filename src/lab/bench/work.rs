@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::counting::{Counted, Operations, count};
 use hexroll::model::Model;
 use hexroll::physics::element::{Class, Compose, Corners, Formulation};
-use hexroll::physics::material::{Hyperelastic, Viscosity};
+use hexroll::physics::material::{Forgetful, Hyperelastic, Viscosity};
 use hexroll::physics::node::{Loads, Prediction, StepSize};
 use hexroll::physics::scalar::{Real, Scalar};
 use hexroll::physics::tensor::{add, axpy};
@@ -39,7 +39,7 @@ impl<T: Real> Compose for Count<T> {
     type Output = Operations;
 
     fn with<F: Formulation, L: Hyperelastic, V: Viscosity>(self, law: L, viscosity: V) -> Operations {
-        count(|| F::force(&law, &viscosity, &self.class, &self.x, &self.x)).1
+        count(|| F::force(&law, &viscosity, &self.class, &self.x, &self.x, &mut Forgetful)).1
     }
 }
 

@@ -48,6 +48,7 @@ pub fn body(mesh: MeshSpec) -> Body {
         density: given::DENSITY,
         law: RUBBER,
         viscosity: None,
+        relaxation: Relaxation::default(),
         element: Element::Q1p0,
         hourglass_limit: None,
         lumping: Lumping::RowSum,

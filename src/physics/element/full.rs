@@ -1,7 +1,7 @@
 use super::hex8::{self, Corners, Shape};
 use super::q1p0::{points, pointwise_energy};
 use super::{Class, Energy, Force, Formulation};
-use crate::material::{Hyperelastic, Viscosity};
+use crate::material::{Hyperelastic, Memory, Viscosity};
 use crate::scalar::Scalar;
 use std::ops::Range;
 
@@ -17,16 +17,18 @@ pub struct FullOf<const EXTRUDED: bool>;
 
 impl<const EXTRUDED: bool> Formulation for FullOf<EXTRUDED> {
     const NUMBERS: Range<usize> = Class::<f64>::OF_POINTS;
+    const POINTS: usize = 8;
 
     #[inline(always)]
-    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>>(
+    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>, R: Memory<S>>(
         law: &L,
         viscosity: &V,
         class: &G,
         x: &Corners<S>,
         v: &Corners<S>,
+        memory: &mut R,
     ) -> Force<S> {
-        points::<S, L, V, G, true, EXTRUDED>(law, viscosity, class, &hex8::gradients(x), v, S::zero())
+        points::<S, L, V, G, R, true, EXTRUDED>(law, viscosity, class, &hex8::gradients(x), v, S::zero(), memory)
     }
 
     #[inline(always)]

@@ -16,6 +16,7 @@
 //! ```
 
 use super::Lumping;
+pub use crate::tensor::gram;
 use crate::lanes::Lanes;
 use crate::material::{Derivatives, Hyperelastic};
 use crate::scalar::Scalar;
@@ -179,19 +180,6 @@ pub fn scatter<S: Scalar>(lines_force: &LineColumns<S>) -> Corners<S> {
         add(x[3], add(y[3], z[3])),
         sub(add(y[2], z[2]), x[3]),
     ]
-}
-
-/// Gram matrix A^T A.
-#[inline(always)]
-pub fn gram<S: Scalar>(a: &Mat3<S>) -> Sym3<S> {
-    Sym3 {
-        xx: dot(a[0], a[0]),
-        yy: dot(a[1], a[1]),
-        zz: dot(a[2], a[2]),
-        xy: dot(a[0], a[1]),
-        xz: dot(a[0], a[2]),
-        yz: dot(a[1], a[2]),
-    }
 }
 
 /// What isotropic laws depend on at a point.

@@ -23,7 +23,7 @@ pub use hex8::{Class, Corners, LaneShapes, SameShape, Shape};
 pub use q1p0::{ExtrudedQ1p0, Q1p0};
 pub use uniform_gradient::{ExtrudedUniformGradient, UniformGradient};
 
-use super::material::{Hyperelastic, Viscosity};
+use super::material::{Hyperelastic, Memory, Viscosity};
 use super::scalar::Scalar;
 use std::ops::Range;
 
@@ -57,6 +57,9 @@ pub struct Force<S> {
     pub min_j: S,
     /// Viscous power sigma_v : D dv [W]; zero without viscosity.
     pub viscous_power: S,
+    /// Of a Prony series, zero without one: work of its stresses since the positions before [J], and power that its terms lose [W].
+    pub memory_work: S,
+    pub memory_loss: S,
 }
 
 /// What the energy pass of an element returns.
@@ -75,13 +78,18 @@ pub trait Formulation: Copy + Send + Sync + 'static {
     /// Those of [`Class::numbers`] that the force reads.
     const NUMBERS: Range<usize>;
 
-    /// Internal force of one element (or one lane batch) from corner positions and half-step velocities.
-    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>>(
+    /// Points with a memory of their own.
+    const POINTS: usize;
+
+    /// Internal force of one element (or one lane batch) from corner positions and half-step velocities, and from what its points
+    /// remember.
+    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>, R: Memory<S>>(
         law: &L,
         viscosity: &V,
         class: &G,
         x: &Corners<S>,
         v: &Corners<S>,
+        memory: &mut R,
     ) -> Force<S>;
 
     /// Stored energy of one element, whose gradient with respect to x is the elastic part of the force.

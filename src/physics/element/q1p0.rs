@@ -1,6 +1,6 @@
 use super::hex8::{self, Corners, Shape};
 use super::{Class, Energy, Force, Formulation};
-use crate::material::{Hyperelastic, Viscosity, velocity_gradient};
+use crate::material::{Deformed, Hyperelastic, Memory, Viscosity, change, overstress, velocity_gradient};
 use crate::scalar::Scalar;
 use crate::tensor::{InPlane, Mat3, Metric, Sym3, Vec3, axpy, cofactor, combined, det, dot, scale};
 use std::ops::Range;
@@ -19,17 +19,19 @@ pub struct Q1p0Of<const EXTRUDED: bool>;
 
 impl<const EXTRUDED: bool> Formulation for Q1p0Of<EXTRUDED> {
     const NUMBERS: Range<usize> = Class::<f64>::OF_POINTS;
+    const POINTS: usize = 8;
 
     #[inline(always)]
-    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>>(
+    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>, R: Memory<S>>(
         law: &L,
         viscosity: &V,
         class: &G,
         x: &Corners<S>,
         v: &Corners<S>,
+        memory: &mut R,
     ) -> Force<S> {
         let pressure = law.dU(hex8::volume(x) * class.inverse_volume());
-        points::<S, L, V, G, false, EXTRUDED>(law, viscosity, class, &hex8::gradients(x), v, pressure)
+        points::<S, L, V, G, R, false, EXTRUDED>(law, viscosity, class, &hex8::gradients(x), v, pressure, memory)
     }
 
     #[inline(always)]
@@ -53,6 +55,14 @@ struct Line<S> {
     square: S,
 }
 
+/// What the points report beside their forces: the smallest det F, and what viscosity and memory do.
+struct Report<S> {
+    min_j: S,
+    power: S,
+    work: S,
+    loss: S,
+}
+
 /// All points. `POINTWISE`: the pressure is U'(J) of the point, not the element's `mean`; `EXTRUDED`: so are the elements.
 #[inline(always)]
 pub(super) fn points<
@@ -60,6 +70,7 @@ pub(super) fn points<
     L: Hyperelastic,
     V: Viscosity,
     G: Shape<S>,
+    R: Memory<S>,
     const POINTWISE: bool,
     const EXTRUDED: bool,
 >(
@@ -69,6 +80,7 @@ pub(super) fn points<
     columns: &hex8::LineColumns<S>,
     v: &Corners<S>,
     mean: S,
+    memory: &mut R,
 ) -> Force<S> {
     let zero = S::zero();
     let rates = if V::ON { hex8::gradients(v) } else { [[[zero; 3]; 4]; 3] };
@@ -78,7 +90,7 @@ pub(super) fn points<
     zeta[1].square = dot(columns[2][1], columns[2][1]);
     zeta[2].square = dot(columns[2][2], columns[2][2]);
     zeta[3].square = dot(columns[2][3], columns[2][3]);
-    let mut report = (S::from_f64(1e30), zero);
+    let mut report = Report { min_j: S::from_f64(1e30), power: zero, work: zero, loss: zero };
     // A point by the signs of xi, eta and zeta (0: minus).
     macro_rules! point {
         ($right:expr, $up:expr, $far:expr) => {
@@ -91,16 +103,17 @@ pub(super) fn points<
             let first = ($right == 0, $up == 0, $far == 0);
             if EXTRUDED {
                 let metric = InPlane(class.metric(q));
-                point::<S, L, V, G, _, POINTWISE>(given, &metric, (a, rate, mean), lines, first, &mut report);
+                point::<S, L, V, G, _, R, POINTWISE>(given, &metric, (a, rate, mean), lines, first, memory, &mut report);
             } else {
                 let metric = class.metric(q);
-                point::<S, L, V, G, _, POINTWISE>(given, &metric, (a, rate, mean), lines, first, &mut report);
+                point::<S, L, V, G, _, R, POINTWISE>(given, &metric, (a, rate, mean), lines, first, memory, &mut report);
             }
         };
     }
     // With its signs known a point's lines are registers, or places on the stack, and no addresses to be computed.
-    // Unrolled code takes long to compile: `full` on elements of any shape goes without.
-    if S::UNROLLED && (EXTRUDED || !POINTWISE) {
+    // Unrolled code takes long to compile: `full` on elements of any shape goes without, and points that remember, whose time goes
+    // to memory.
+    if S::UNROLLED && (EXTRUDED || !POINTWISE) && !V::REMEMBERS {
         point!(0, 0, 0);
         point!(1, 0, 0);
         point!(0, 1, 0);
@@ -128,23 +141,33 @@ pub(super) fn points<
         [eta[0].force, eta[1].force, eta[2].force, eta[3].force],
         [zeta!(0), zeta!(1), zeta!(2), zeta!(3)],
     ];
-    let (min_j, viscous_power) = report;
-    Force { f: hex8::scatter(&forces), min_j, viscous_power }
+    let Report { min_j, power, work, loss } = report;
+    Force { f: hex8::scatter(&forces), min_j, viscous_power: power, memory_work: work, memory_loss: loss }
 }
 
-/// Point q, after those before it: adds to its `lines` along xi, eta and zeta, of which it may be the `first` point, the
-/// smallest det F and the viscous power. `a` and `rate`: columns of A and of its rate.
+/// Point q, after those before it: adds to its `lines` along xi, eta and zeta, of which it may be the `first` point, and to the
+/// report. `a` and `rate`: columns of A and of its rate.
 ///
 /// Without loops: every point of every kernel has its own copy of this, and of a loop a compiler makes much before it unrolls it.
 #[inline(always)]
-fn point<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>, M: Metric<S>, const POINTWISE: bool>(
+fn point<
+    S: Scalar,
+    L: Hyperelastic,
+    V: Viscosity,
+    G: Shape<S>,
+    M: Metric<S>,
+    R: Memory<S>,
+    const POINTWISE: bool,
+>(
     (law, viscosity, class, q): (&L, &V, &G, usize),
     metric: &M,
     (a, rate, mean): (Mat3<S>, Mat3<S>, S),
     (xi, eta, zeta): (&mut Line<S>, &mut Line<S>, &mut Line<S>),
     first: (bool, bool, bool),
-    (min_j, power): &mut (S, S),
+    memory: &mut R,
+    report: &mut Report<S>,
 ) {
+    let is_full = const { L::HAS_I2 || V::REMEMBERS };
     let (zero, weight) = (S::zero(), S::from_f64(hex8::WEIGHT));
     if first.0 {
         xi.square = dot(a[0], a[0]);
@@ -156,20 +179,31 @@ fn point<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>, M: Metric<S>, co
         xx: xi.square,
         yy: eta.square,
         zz: zeta.square,
-        xy: if M::XY || L::HAS_I2 { dot(a[0], a[1]) } else { zero },
-        xz: if M::XZ || L::HAS_I2 { dot(a[0], a[2]) } else { zero },
-        yz: if M::YZ || L::HAS_I2 { dot(a[1], a[2]) } else { zero },
+        xy: if M::XY || is_full { dot(a[0], a[1]) } else { zero },
+        xz: if M::XZ || is_full { dot(a[0], a[2]) } else { zero },
+        yz: if M::YZ || is_full { dot(a[1], a[2]) } else { zero },
     };
     let cof = cofactor(&a);
     let det_a = dot(a[0], cof[0]);
     let j = det_a * class.inverse_det_j0(q);
     let k = hex8::invariants::<S, L, M>(&gram, metric);
     let d = law.derivatives(k.i1, k.i2, j);
-    let pressure = (d.wj + if POINTWISE { law.dU(j) } else { mean }) * weight;
+    let mut pressure = (d.wj + if POINTWISE { law.dU(j) } else { mean }) * weight;
+    let mut remembered = Sym3::zero();
+    if V::REMEMBERS {
+        let isochoric = hex8::second_piola::<S, L, M>(&k, &d, metric, S::one());
+        let change = change(&a, &rate, memory.before());
+        let over = overstress(memory, q, &Deformed { gram, cof, det: det_a, j, isochoric, wj: d.wj, change });
+        let dv = class.det_j0(q);
+        remembered = over.stress.scaled(dv);
+        pressure += over.pressure * weight / j;
+        report.work += over.work * dv;
+        report.loss += over.loss * dv;
+    }
     let mut stress = [[zero; 3]; 3];
     if V::ON {
         let (viscous, point_power) = viscosity.stress(&velocity_gradient(&rate, &cof), det_a, weight);
-        *power += point_power;
+        report.power += point_power;
         stress = hex8::with_pressure(viscous, pressure);
     }
     // A line's sum is read and written once: with places that a compiler cannot tell apart, each addition would be.
@@ -187,16 +221,19 @@ fn point<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>, M: Metric<S>, co
     }
     let (mut x, mut y) = (pushed!(xi, first.0, cof[0]), pushed!(eta, first.1, cof[1]));
     let mut z = pushed!(zeta, first.2, cof[2]);
-    let s = hex8::second_piola::<S, L, M>(&k, &d, metric, class.det_j0(q));
-    if M::XY || L::HAS_I2 {
+    let mut s = hex8::second_piola::<S, L, M>(&k, &d, metric, class.det_j0(q));
+    if V::REMEMBERS {
+        s = s.plus(S::one(), &remembered);
+    }
+    if M::XY || is_full {
         x = axpy(a[1], s.xy, x);
         y = axpy(a[0], s.xy, y);
     }
-    if M::XZ || L::HAS_I2 {
+    if M::XZ || is_full {
         x = axpy(a[2], s.xz, x);
         z = axpy(a[0], s.xz, z);
     }
-    if M::YZ || L::HAS_I2 {
+    if M::YZ || is_full {
         y = axpy(a[2], s.yz, y);
         z = axpy(a[1], s.yz, z);
     }
@@ -212,7 +249,7 @@ fn point<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>, M: Metric<S>, co
     }
     zeta.along = if first.2 { s.zz } else { zeta.along + s.zz };
     (xi.force, eta.force, zeta.force) = (x, y, z);
-    *min_j = min_j.min(j);
+    report.min_j = report.min_j.min(j);
 }
 
 #[inline(always)]

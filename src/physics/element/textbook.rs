@@ -5,7 +5,7 @@
 
 use super::Corners;
 use super::hex8::{GAUSS, SIGNS};
-use crate::material::Hyperelastic;
+use crate::material::{Hyperelastic, Term};
 use glam::{DMat3, DVec3};
 
 /// Derivatives of the eight shape functions N_a = (1 + xi xi_a)(1 + eta eta_a)(1 + zeta zeta_a)/8 along xi, eta, zeta.
@@ -36,6 +36,64 @@ fn first_piola<L: Hyperelastic>(law: &L, F: DMat3) -> DMat3 {
 /// cof F = J F^-T = dJ/dF.
 fn cofactor(F: DMat3) -> DMat3 {
     F.inverse().transpose() * F.determinant()
+}
+
+/// Sd = DEV[2 dWb/dC] with the invariants of J^-2/3 C; DEV[.] = (.) - 1/3 (C : .) C^-1 (Simo & Hughes, eq. 10.3).
+fn isochoric_stress<L: Hyperelastic>(law: &L, F: DMat3) -> DMat3 {
+    let (J, C) = (F.determinant(), F.transpose() * F);
+    let trace = C.x_axis.x + C.y_axis.y + C.z_axis.z;
+    let square = C * C;
+    let i2 = 0.5 * (trace * trace - (square.x_axis.x + square.y_axis.y + square.z_axis.z));
+    let d = law.derivatives(trace, i2, J);
+    // dW/dI of the invariants I1 J^-2/3 and I2 J^-4/3.
+    let (w1, w2) = (d.w1 * J.powf(2.0 / 3.0), d.w2 * J.powf(4.0 / 3.0));
+    let Cb = C * J.powf(-2.0 / 3.0);
+    let ib = trace * J.powf(-2.0 / 3.0);
+    deviator(C, DMat3::IDENTITY * (2.0 * w1) + (DMat3::IDENTITY * ib - Cb) * (2.0 * w2))
+}
+
+/// DEV[A].
+fn deviator(C: DMat3, A: DMat3) -> DMat3 {
+    let contracted = C.x_axis.dot(A.x_axis) + C.y_axis.dot(A.y_axis) + C.z_axis.dot(A.z_axis);
+    A - C.inverse() * (contracted / 3.0)
+}
+
+/// Internal force of the corners [N] of a Prony series alone, at the last of the positions `history`, each with the time since the
+/// one before it [s]; at the first of them everything has relaxed.
+///
+/// h(n+1) = e^(-dt/tau) h(n) + e^(-dt/2 tau) (Sd(n+1) - Sd(n)), S = J^-2/3 DEV[sum r h] (Simo & Hughes, box 10.2).
+pub fn overstress<L: Hyperelastic>(
+    law: &L,
+    terms: &[Term],
+    X: &Corners<f64>,
+    history: &[(f64, Corners<f64>)],
+) -> Corners<f64> {
+    let X = X.map(DVec3::from);
+    let mut f = [DVec3::ZERO; 8];
+    for sign in SIGNS {
+        let g = shape_gradients(DVec3::from(sign) * GAUSS);
+        let J0 = gradient(&X, &g);
+        let B = g.map(|g| J0.inverse().transpose() * g);
+        let mut before = None;
+        let mut h = vec![DMat3::ZERO; terms.len()];
+        let mut F = DMat3::IDENTITY;
+        for (dt, x) in history {
+            F = gradient(&x.map(DVec3::from), &B);
+            let Sd = isochoric_stress(law, F);
+            for (h, term) in h.iter_mut().zip(terms) {
+                let change = Sd - before.unwrap_or(Sd);
+                *h = *h * (-dt / term.time).exp() + change * (-0.5 * dt / term.time).exp();
+            }
+            before = Some(Sd);
+        }
+        let sum = h.iter().zip(terms).fold(DMat3::ZERO, |sum, (h, term)| sum + *h * term.ratio);
+        let C = F.transpose() * F;
+        let P = F * deviator(C, sum) * F.determinant().powf(-2.0 / 3.0);
+        for a in 0..8 {
+            f[a] += P * B[a] * J0.determinant();
+        }
+    }
+    f.map(|f| f.to_array())
 }
 
 /// Internal force of the corners [N] at reference positions `X` and positions `x` [m].

@@ -1,8 +1,8 @@
 use super::hex8::{self, Corners, HOURGLASS, Shape};
 use super::{Class, Energy, Force, Formulation};
-use crate::material::{Hyperelastic, Viscosity, velocity_gradient};
+use crate::material::{Deformed, Hyperelastic, Memory, Viscosity, change, overstress, velocity_gradient};
 use crate::scalar::Scalar;
-use crate::tensor::{Identity, Mat3, Vec3, add, axpy, cofactor, combined, det, dot, neg, scale, sub};
+use crate::tensor::{Identity, Mat3, Sym3, Vec3, add, axpy, cofactor, combined, det, dot, neg, scale, sub};
 use std::ops::Range;
 
 /// Volume-averaged gradients (Flanagan & Belytschko 1981) and hourglass stiffness on gamma-vectors formed on the
@@ -17,17 +17,19 @@ pub struct UniformGradient;
 
 impl Formulation for UniformGradient {
     const NUMBERS: Range<usize> = Class::<f64>::OF_MEAN;
+    const POINTS: usize = 1;
 
     #[inline(always)]
-    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>>(
+    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>, R: Memory<S>>(
         law: &L,
         viscosity: &V,
         class: &G,
         x: &Corners<S>,
         v: &Corners<S>,
+        memory: &mut R,
     ) -> Force<S> {
         let rates = if V::ON { Some(fields(class, v)) } else { None };
-        let (force, p, hourglass) = force(law, viscosity, class, fields(class, x), rates);
+        let (force, p, hourglass) = force(law, viscosity, class, fields(class, x), rates, memory);
         Force { f: corner_forces(class, &p, &hourglass), ..force }
     }
 
@@ -56,17 +58,19 @@ pub struct ExtrudedUniformGradient;
 
 impl Formulation for ExtrudedUniformGradient {
     const NUMBERS: Range<usize> = Class::<f64>::OF_MEAN;
+    const POINTS: usize = 1;
 
     #[inline(always)]
-    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>>(
+    fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>, R: Memory<S>>(
         law: &L,
         viscosity: &V,
         class: &G,
         x: &Corners<S>,
         v: &Corners<S>,
+        memory: &mut R,
     ) -> Force<S> {
         let rates = if V::ON { Some(extruded_fields(class, v)) } else { None };
-        let (force, p, hourglass) = force(law, viscosity, class, extruded_fields(class, x), rates);
+        let (force, p, hourglass) = force(law, viscosity, class, extruded_fields(class, x), rates, memory);
         Force { f: extruded_forces(class, &p, &hourglass), ..force }
     }
 
@@ -88,23 +92,34 @@ fn fields<S: Scalar, G: Shape<S>>(class: &G, x: &Corners<S>) -> Fields<S> {
 /// From the fields of the positions, and of the velocities where there is viscosity: everything but the corner forces, the
 /// mean first Piola stress, and the hourglass forces.
 #[inline(always)]
-fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>>(
+fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>, R: Memory<S>>(
     law: &L,
     viscosity: &V,
     class: &G,
     (f, mut hourglass): Fields<S>,
     rates: Option<Fields<S>>,
+    memory: &mut R,
 ) -> (Force<S>, Mat3<S>, [Vec3<S>; 4]) {
     let cof = cofactor(&f);
     let j = dot(f[0], cof[0]);
-    let k = hex8::invariants::<S, L, _>(&hex8::gram(&f), &Identity);
+    let gram = hex8::gram(&f);
+    let k = hex8::invariants::<S, L, _>(&gram, &Identity);
     let d = law.derivatives(k.i1, k.i2, j);
     let one = S::one();
     let s = hex8::second_piola::<S, L, _>(&k, &d, &Identity, one);
     let mut p = hex8::times_second_piola::<S, L>(&f, &s);
-    let pressure = d.wj + law.dU(j);
-    let mut power = S::zero();
+    let mut pressure = d.wj + law.dU(j);
+    let (mut power, mut work, mut loss) = (S::zero(), S::zero(), S::zero());
     if let Some((rate, rates)) = rates {
+        if V::REMEMBERS {
+            let change = change(&f, &rate, memory.before());
+            let at = Deformed { gram, cof, det: j, j, isochoric: s, wj: d.wj, change };
+            let over = overstress(memory, 0, &at);
+            p = plus_product(&p, &f, &over.stress);
+            pressure += over.pressure / j;
+            work = over.work * class.volume();
+            loss = over.loss * class.volume();
+        }
         let l = velocity_gradient(&rate, &cof);
         let (viscous, density) = viscosity.stress(&l, j, one);
         power += density * class.volume();
@@ -133,7 +148,19 @@ fn force<S: Scalar, L: Hyperelastic, V: Viscosity, G: Shape<S>>(
         }
     }
     let none = [[S::zero(); 3]; 8];
-    (Force { f: none, min_j: j, viscous_power: power }, p, hourglass)
+    let force = Force { f: none, min_j: j, viscous_power: power, memory_work: work, memory_loss: loss };
+    (force, p, hourglass)
+}
+
+/// P + F S
+#[inline(always)]
+fn plus_product<S: Scalar>(p: &Mat3<S>, f: &Mat3<S>, s: &Sym3<S>) -> Mat3<S> {
+    let s = s.columns();
+    [
+        add(p[0], combined(f, s[0][0], s[0][1], s[0][2])),
+        add(p[1], combined(f, s[1][0], s[1][1], s[1][2])),
+        add(p[2], combined(f, s[2][0], s[2][1], s[2][2])),
+    ]
 }
 
 /// Columns of sum_a x_a (x) b_a.
@@ -249,7 +276,7 @@ fn extruded_forces<S: Scalar, G: Shape<S>>(class: &G, p: &Mat3<S>, hourglass: &[
 mod tests {
     use super::*;
     use crate::element::{Class, ExtrudedFull, ExtrudedQ1p0, Full, Q1p0};
-    use crate::material::{Inviscid, KelvinVoigt, MooneyRivlin};
+    use crate::material::{Forgetful, Inviscid, KelvinVoigt, MooneyRivlin};
 
     /// All routines on plane figures extruded along eta, in any direction of space, deformed and moving at random.
     #[test]
@@ -276,24 +303,24 @@ mod tests {
             let v = X.map(|_| [next(), next(), next()]);
             let pairs = [
                 (
-                    UniformGradient::force(&law, &still, &class, &x, &v),
-                    ExtrudedUniformGradient::force(&law, &still, &class, &x, &v),
+                    UniformGradient::force(&law, &still, &class, &x, &v, &mut Forgetful),
+                    ExtrudedUniformGradient::force(&law, &still, &class, &x, &v, &mut Forgetful),
                 ),
                 (
-                    UniformGradient::force(&law, &moving, &class, &x, &v),
-                    ExtrudedUniformGradient::force(&law, &moving, &class, &x, &v),
+                    UniformGradient::force(&law, &moving, &class, &x, &v, &mut Forgetful),
+                    ExtrudedUniformGradient::force(&law, &moving, &class, &x, &v, &mut Forgetful),
                 ),
                 (
-                    Full::force(&law, &moving, &class, &x, &v),
-                    ExtrudedFull::force(&law, &moving, &class, &x, &v),
+                    Full::force(&law, &moving, &class, &x, &v, &mut Forgetful),
+                    ExtrudedFull::force(&law, &moving, &class, &x, &v, &mut Forgetful),
                 ),
                 (
-                    Q1p0::force(&law, &still, &class, &x, &v),
-                    ExtrudedQ1p0::force(&law, &still, &class, &x, &v),
+                    Q1p0::force(&law, &still, &class, &x, &v, &mut Forgetful),
+                    ExtrudedQ1p0::force(&law, &still, &class, &x, &v, &mut Forgetful),
                 ),
                 (
-                    Q1p0::force(&law, &moving, &class, &x, &v),
-                    ExtrudedQ1p0::force(&law, &moving, &class, &x, &v),
+                    Q1p0::force(&law, &moving, &class, &x, &v, &mut Forgetful),
+                    ExtrudedQ1p0::force(&law, &moving, &class, &x, &v, &mut Forgetful),
                 ),
             ];
             for (any, extruded) in pairs {

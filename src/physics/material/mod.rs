@@ -12,13 +12,17 @@
 mod mooney_rivlin;
 mod mooney_rivlin_eq4;
 mod neo_hookean;
+mod relaxation;
 mod viscosity;
 mod yeoh;
 
 pub use mooney_rivlin::MooneyRivlin;
 pub use mooney_rivlin_eq4::MooneyRivlinEq4;
 pub use neo_hookean::NeoHookean;
-pub use viscosity::{Inviscid, KelvinVoigt, Viscosity, velocity_gradient};
+pub use relaxation::{
+    Deformed, Fading, Forgetful, Memory, Overstress, Pace, Relaxation, Term, change, overstress,
+};
+pub use viscosity::{Inviscid, KelvinVoigt, Viscoelastic, Viscosity, velocity_gradient};
 pub use yeoh::Yeoh;
 
 use super::parameters::{Fault, Parameter, Parameters};
@@ -67,6 +71,10 @@ pub trait Moduli: Hyperelastic + Parameters {
     fn from_moduli(shear: f64, bulk: f64) -> Self;
     /// A law of this kind with these moduli [Pa] in which every parameter matters: what tests and listings take.
     fn example(shear: f64, bulk: f64) -> Self;
+    /// Whether W depends on shape alone, and U on volume alone.
+    const IS_ISOCHORIC: bool = true;
+    /// The law with `factor` times its W.
+    fn with_shear_scaled(self, factor: f64) -> Self;
     /// Which parameters to look at where a modulus is not positive: for the shear, and for the bulk modulus.
     const KEYS_OF_MODULI: [&'static str; 2];
 
@@ -229,6 +237,8 @@ answers! {
     wave_modulus: f64 = |law: L| law.bulk_modulus() + 4.0 / 3.0 * law.shear_modulus();
     /// Name in a scene file.
     name: &'static str = |_law: L| L::NAME;
+    /// Whether W depends on shape alone, and U on volume alone.
+    is_isochoric: bool = |_law: L| L::IS_ISOCHORIC;
     /// Whether the energy depends on I2.
     has_i2: bool = |_law: L| L::HAS_I2;
     /// Its parameters, and their values in that order.
@@ -238,6 +248,21 @@ answers! {
 }
 
 impl Law {
+    /// The law with `factor` times its W.
+    pub fn with_shear_scaled(&self, factor: f64) -> Law {
+        struct Scaled(f64);
+        impl WithLaw for Scaled {
+            type Output = Law;
+            fn with<L: Moduli>(self, law: L) -> Law
+            where
+                Law: From<L>,
+            {
+                law.with_shear_scaled(self.0).into()
+            }
+        }
+        self.visit(Scaled(factor))
+    }
+
     /// Its kind.
     pub fn kind(&self) -> &'static Kind {
         Law::KINDS.iter().find(|kind| kind.name == self.name()).expect("every law is of a kind")

@@ -31,6 +31,10 @@ impl Moduli for MooneyRivlin {
         MooneyRivlin { g0: bulk, g1: shear, g2: 0.0 }
     }
 
+    fn with_shear_scaled(self, factor: f64) -> Self {
+        MooneyRivlin { g1: factor * self.g1, g2: factor * self.g2, ..self }
+    }
+
     fn example(shear: f64, bulk: f64) -> Self {
         MooneyRivlin { g0: bulk, g1: 0.7 * shear, g2: 0.3 * shear }
     }

@@ -18,6 +18,7 @@ parameters! {
 }
 
 impl Moduli for MooneyRivlinEq4 {
+    const IS_ISOCHORIC: bool = false;
     const KEYS_OF_MODULI: [&'static str; 2] = ["g1", "g0"];
 
     fn shear_modulus(&self) -> f64 {
@@ -30,6 +31,10 @@ impl Moduli for MooneyRivlinEq4 {
 
     fn from_moduli(shear: f64, bulk: f64) -> Self {
         MooneyRivlinEq4 { g0: bulk - 2.0 / 3.0 * shear, g1: shear, g2: 0.0 }
+    }
+
+    fn with_shear_scaled(self, factor: f64) -> Self {
+        MooneyRivlinEq4 { g1: factor * self.g1, g2: factor * self.g2, ..self }
     }
 
     fn example(shear: f64, bulk: f64) -> Self {

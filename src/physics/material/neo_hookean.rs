@@ -29,6 +29,10 @@ impl Moduli for NeoHookean {
         NeoHookean { g0: bulk, g1: shear }
     }
 
+    fn with_shear_scaled(self, factor: f64) -> Self {
+        NeoHookean { g1: factor * self.g1, ..self }
+    }
+
     fn example(shear: f64, bulk: f64) -> Self {
         NeoHookean::from_moduli(shear, bulk)
     }

@@ -5,6 +5,8 @@ use crate::tensor::{Mat3, Vec3, axpy, combined, dot};
 pub trait Viscosity: Copy + Send + Sync + 'static {
     /// Whether there is any: the velocities are not even read otherwise.
     const ON: bool;
+    /// Whether points remember: a Prony series, whose terms come with the [`Memory`](super::Memory).
+    const REMEMBERS: bool = false;
     /// The same for velocities that are means over the time `dt` [s] before the positions; 0: velocities at their time.
     fn over(self, dt: f64) -> Self;
     /// weight sigma_v and the power weight sigma_v : L det A, from [`velocity_gradient`] and det A; what sigma_v adds to the force
@@ -100,6 +102,30 @@ impl Viscosity for KelvinVoigt {
     fn turning<S: Scalar>(&self, l: &Mat3<S>, det: S, q: Vec3<S>, rate: Vec3<S>) -> Vec3<S> {
         let before = axpy(rate, S::from_f64(-self.dt), q);
         axpy(combined(l, before[0], before[1], before[2]), S::one() / det, rate)
+    }
+}
+
+/// A Prony series beside a Kelvin-Voigt viscosity, which may be zero.
+#[derive(Debug, Clone, Copy)]
+pub struct Viscoelastic(pub KelvinVoigt);
+
+impl Viscosity for Viscoelastic {
+    const ON: bool = true;
+    const REMEMBERS: bool = true;
+
+    #[inline(always)]
+    fn over(self, dt: f64) -> Self {
+        Viscoelastic(self.0.over(dt))
+    }
+
+    #[inline(always)]
+    fn stress<S: Scalar>(&self, l: &Mat3<S>, det: S, weight: S) -> (Mat3<S>, S) {
+        self.0.stress(l, det, weight)
+    }
+
+    #[inline(always)]
+    fn turning<S: Scalar>(&self, l: &Mat3<S>, det: S, q: Vec3<S>, rate: Vec3<S>) -> Vec3<S> {
+        self.0.turning(l, det, q, rate)
     }
 }
 

@@ -42,6 +42,10 @@ impl Moduli for Yeoh {
         Yeoh { c10: 0.5 * shear, c20: 0.0, c30: 0.0, bulk_modulus: bulk }
     }
 
+    fn with_shear_scaled(self, factor: f64) -> Self {
+        Yeoh { c10: factor * self.c10, c20: factor * self.c20, c30: factor * self.c30, ..self }
+    }
+
     /// C20 and C30 so large that strains of a tenth feel them.
     fn example(shear: f64, bulk: f64) -> Self {
         Yeoh { c10: 0.5 * shear, c20: shear, c30: 10.0 * shear, bulk_modulus: bulk }

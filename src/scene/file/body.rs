@@ -1,6 +1,7 @@
 //! `[body]`: mesh, material, element.
 
 use super::parameters;
+use super::relaxation::relaxation;
 use crate::error::Result;
 use crate::physics::material::Kind;
 use crate::physics::parameters::Parameter;
@@ -8,7 +9,7 @@ use crate::scene::reader::{Bound, Item, Later, Table};
 use crate::scene::units::{ANGLE, ANGULAR_VELOCITY, DENSITY, LENGTH, PRESSURE, VELOCITY, VISCOSITY};
 use crate::scene::{
     Body, Drive, Element, Grading, Implicit, ImplicitScheme, InitialVelocity, Law, Lumping, MeshSpec, Method,
-    Stage,
+    Relaxation, Stage,
 };
 
 const HOURGLASS: f64 = 0.15;
@@ -37,7 +38,7 @@ const LATER_GENERATORS: [Later; 3] = [
 pub(super) fn body(item: &Item, has_road: bool) -> Result<Body> {
     let table = item.table()?;
     table.only(&KEYS, &[])?;
-    let (law, viscosity) = material(&table.section("material", "[body.material]")?.table()?)?;
+    let (law, viscosity, relaxation) = material(&table.section("material", "[body.material]")?.table()?)?;
     let mesh_table = table.section("mesh", "[body.mesh]")?.table()?;
     Ok(Body {
         mesh: mesh(&mesh_table)?,
@@ -47,6 +48,7 @@ pub(super) fn body(item: &Item, has_road: bool) -> Result<Body> {
         density: table.quantity("density", &DENSITY, Bound::Positive)?,
         law,
         viscosity,
+        relaxation,
         element: element(&table)?,
         hourglass_limit: table.get("hourglass_limit").map(|item| item.number(Bound::Positive)).transpose()?,
         lumping: table.get("mass_lumping").map_or(Ok(Lumping::RowSum), |item| {
@@ -196,9 +198,9 @@ fn elements(table: &Table, example: &str, first: usize) -> Result<[usize; 3]> {
 
 const MODULI: [&str; 2] = ["shear_modulus", "bulk_modulus"];
 
-/// Law and viscosity.
-fn material(table: &Table) -> Result<(Law, Option<f64>)> {
-    let mut keys = [&["law", "viscosity"], &MODULI[..]].concat();
+/// Law of slow deformation, viscosity and Prony series.
+fn material(table: &Table) -> Result<(Law, Option<f64>, Relaxation)> {
+    let mut keys = [&["law", "viscosity", "relaxation"], &MODULI[..]].concat();
     keys.extend(Law::KINDS.iter().flat_map(|kind| kind.parameters).map(|p| p.key));
     keys.dedup();
     table.only(&keys, &[])?;
@@ -211,7 +213,11 @@ fn material(table: &Table) -> Result<(Law, Option<f64>)> {
         None => moduli(table, kind)?,
     };
     let eta = table.quantity_or("viscosity", 0.0, &VISCOSITY, Bound::NotNegative)?;
-    Ok((law, (eta > 0.0).then_some(eta)))
+    let (law, relaxation) = match table.get("relaxation") {
+        Some(item) => relaxation(&item, law)?,
+        None => (law, Relaxation::default()),
+    };
+    Ok((law, (eta > 0.0).then_some(eta), relaxation))
 }
 
 /// Refuses what only other laws have.

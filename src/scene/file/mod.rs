@@ -7,6 +7,7 @@ mod body;
 mod implicit;
 mod output;
 mod parameters;
+mod relaxation;
 mod rim_motion;
 mod stage;
 mod world;

@@ -3,6 +3,7 @@
 
 mod limits;
 mod scales;
+mod sizes;
 mod sliding;
 mod steps;
 
@@ -16,6 +17,7 @@ pub const CASES: &[Case] = &[
     steps::REFUSED,
     scales::SIMILAR,
     scales::FAR,
+    sizes::SIZES,
     sliding::CASE,
     scales::CHATTER,
     scales::LONG,

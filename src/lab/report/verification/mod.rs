@@ -10,6 +10,7 @@ mod cylinder;
 mod hertz_line;
 mod hertz_point;
 mod paper;
+mod relaxation;
 mod rotation;
 mod slider;
 mod slope;
@@ -23,6 +24,7 @@ pub const CASES: &[Case] = &[
     constitutive::CASE,
     waves::CASE,
     vibration::CASE,
+    relaxation::CASE,
     rotation::CASE,
     bonded_strip::CASE,
     bar_impact::CASE,
