@@ -73,8 +73,7 @@ pub struct Sample {
     pub min_jacobian: f64,
     /// Step used in the window [s].
     pub dt_s: f64,
-    /// Energy that viscosity and relaxation have turned into heat [J]; 0 in a history of a version without this column.
-    #[serde(default)]
+    /// Energy that viscosity and relaxation have turned into heat [J].
     pub dissipation_J: f64,
 }
 

@@ -342,7 +342,8 @@ fn extruded_elements_take_the_shorter_way_to_the_same_force() {
                 let v: Corners<f64> = std::array::from_fn(|_| random.vector());
                 let c = &model.classes[class as usize];
                 let general = force(Element::Q1p0, &law, c, &x, Some(&v));
-                let composition = Composition { element: Element::Q1p0, law, viscosity: Some(ETA), relaxes: false };
+                let composition =
+                    Composition { element: Element::Q1p0, law, viscosity: Some(ETA), relaxes: false };
                 let shorter = composition.visit_fastest(true, ForceAt { class: c, x: &x, v: &v });
                 let scale = largest(&general.f);
                 for (a, b) in general.f.iter().flatten().zip(shorter.f.iter().flatten()) {

@@ -280,7 +280,8 @@ fn the_loss_angle_of_one_term_is_the_known_one() {
         let wt = std::f64::consts::TAU * f * 0.1;
         ratio * wt / (1.0 + wt * wt) / (1.0 + ratio * wt * wt / (1.0 + wt * wt))
     };
-    let best = (1..4000).map(|i| f64::from(i) * 1e-3).max_by(|a, b| tangent(*a).total_cmp(&tangent(*b))).unwrap();
+    let best =
+        (1..4000).map(|i| f64::from(i) * 1e-3).max_by(|a, b| tangent(*a).total_cmp(&tangent(*b))).unwrap();
     close("frequency", best, 1.332, 1e-3);
     close("tan delta", tangent(best), 0.1793, 1e-3);
     // And of an element sheared at that frequency.
@@ -392,7 +393,10 @@ fn the_engine_moves_as_elements_one_by_one() {
                 for (precision, tolerance) in [(Precision::F64, 1e-11), (Precision::F32, 1e-4)] {
                     let mut engine = engine_at(&model, &scene, precision, 1, level).unwrap();
                     let error = relative(&on_engine(&mut *engine, &model, &v, false), &expected);
-                    assert!(error < tolerance, "{element:?} loose {loose} {level:?} {precision:?}: {error:e}");
+                    assert!(
+                        error < tolerance,
+                        "{element:?} loose {loose} {level:?} {precision:?}: {error:e}"
+                    );
                 }
             }
         }
@@ -494,7 +498,10 @@ fn the_balances_of_a_rolling_wheel_close_and_threads_change_no_bit() {
             assert!(error < 5e-3 * largest, "{precision:?} {}: {error:e} of {largest:e}", row.time_s);
             assert!(row.dissipation_J >= 0.0);
         }
-        assert!(rows.windows(2).all(|r| r[1].dissipation_J > r[0].dissipation_J), "energy is lost all the time");
+        assert!(
+            rows.windows(2).all(|r| r[1].dissipation_J > r[0].dissipation_J),
+            "energy is lost all the time"
+        );
         let two = run(2);
         assert_eq!(one.samples, two.samples);
         assert_eq!(one.snapshots, two.snapshots);

@@ -57,7 +57,8 @@ fn the_routines_of_an_element_follow_the_book() {
                 let x = hex.map(|n| x[n as usize]);
                 let expected = book(&law, &X, &x);
                 let class = &model.classes[class as usize];
-                let composition = Composition { element: Element::Q1p0, law, viscosity: None, relaxes: false };
+                let composition =
+                    Composition { element: Element::Q1p0, law, viscosity: None, relaxes: false };
                 let any = composition.visit(Fast { class, x: &x });
                 assert!(relative(&any, &expected) < 1e-12, "{}: {any:?} {expected:?}", law.name());
                 let fastest = composition.visit_fastest(extruded, Fast { class, x: &x });

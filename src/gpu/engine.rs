@@ -68,8 +68,20 @@ impl GpuEngine {
         mut buffers: Buffers,
         seat: Option<Seat>,
     ) -> Result<Self> {
-        let Prepared { model, order, mesh, choice, counts, series, constants, shape, scene, grain, frame, .. } =
-            prepared;
+        let Prepared {
+            model,
+            order,
+            mesh,
+            choice,
+            counts,
+            series,
+            constants,
+            shape,
+            scene,
+            grain,
+            frame,
+            ..
+        } = prepared;
         upload::fill(gpu, &mut buffers, &model, &choice, frame, scene.road.as_ref());
         let mut programs = Programs::new(gpu, choice, constants, &buffers, &counts, shape)?;
         // A software adapter gives a work group one of its processors, and the passes all of them.

@@ -173,11 +173,7 @@ impl Reductions {
             } else {
                 None
             },
-            loss: if choice.relaxes {
-                Some(make("viscous_loss", "partials_loss", 1, false)?)
-            } else {
-                None
-            },
+            loss: if choice.relaxes { Some(make("viscous_loss", "partials_loss", 1, false)?) } else { None },
             probes: make("probes", "partials_probes", PROBES, false)?,
             energies: make("energies", "partials_energies", 1, true)?,
         })

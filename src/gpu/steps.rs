@@ -9,8 +9,8 @@ use super::readback::Readback;
 use super::upload;
 use super::verdict::{self, Taken, step_contact};
 use crate::engine::Step;
-use crate::physics::material::Pace;
 use crate::error::Result;
+use crate::physics::material::Pace;
 use crate::physics::rim::{self, Coordinates};
 use std::time::{Duration, Instant};
 

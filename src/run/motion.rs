@@ -142,7 +142,11 @@ impl Motion {
 
     /// What the engine needs to know of the stage.
     pub fn setup(&self, mass_damping: f64) -> StageSetup {
-        StageSetup { mass_damping, free: std::array::from_fn(|component| self.own(component)), relaxed: false }
+        StageSetup {
+            mass_damping,
+            free: std::array::from_fn(|component| self.own(component)),
+            relaxed: false,
+        }
     }
 
     /// Plans `count` steps of `dt` from `time`, the first after a step of `before`.

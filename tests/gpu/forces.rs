@@ -124,7 +124,7 @@ fn check(gpu: &Gpu, case: &Case, who: Who, body: &Body, tolerance: f64) {
 }
 
 /// The mesh less its elements at x = y = 0 (a column, or all of a mesh that has no more): no lattice, if that leaves any.
-fn notched(mesh: &Mesh) -> Option<Mesh> {
+pub fn notched(mesh: &Mesh) -> Option<Mesh> {
     let at_edge = |h: &&[u32; 8]| [0, 1].iter().all(|&d| mesh.nodes[h[0] as usize][d].abs() < 2e-3);
     let hexes: Vec<[u32; 8]> = mesh.hexes.iter().filter(|h| !at_edge(h)).copied().collect();
     let mut number = vec![None; mesh.nodes.len()];

@@ -1,7 +1,10 @@
 //! A Prony series on the device: what its points remember is what the CPU's do, for every element, in a lattice and by tables; and
 //! samples, trial forces and states that are set leave in it what they leave there.
 
-use crate::rig::{Plan, Who, drive, engine, errors, list, noise, outcome, safe_step, scene, state_errors, within};
+use crate::forces::notched;
+use crate::rig::{
+    Plan, Who, drive, engine, errors, list, noise, outcome, safe_step, scene, state_errors, within,
+};
 use hexroll::engine::{StageSetup, State, Step};
 use hexroll::gpu::Gpu;
 use hexroll::model::Model;
@@ -15,18 +18,21 @@ fn series() -> Relaxation {
     Relaxation { terms: vec![Term { ratio: 0.7, time: 1e-4 }, Term { ratio: 0.4, time: 3e-3 }] }
 }
 
-/// A small wheel that nothing holds, of any element; `lattice`: as generated, or in any shape and order.
-fn wheel(element: Element, lattice: bool) -> (Scene, Model) {
-    let mut scene = scene("lat100_straight_viscous", &["body.mesh.elements=[9, 2, 3]"]);
+/// A small body that nothing holds, of any element: a wheel whose nodes stand in a lattice, with a viscosity, or a block without its
+/// elements along an edge, in any shape.
+fn body(element: Element, lattice: bool) -> (Scene, Model) {
+    let mut scene = match lattice {
+        true => scene("lat100_straight_viscous", &["body.mesh.elements=[9, 2, 3]"]),
+        false => scene("spinning_block", &["body.mesh.elements=[4, 3, 3]"]),
+    };
     scene.body.element = element;
     scene.body.relaxation = series();
     scene.body.viscosity = lattice.then_some(20.0);
     (scene.rim, scene.road, scene.friction) = (None, None, None);
     let mut mesh = Model::new(&scene).unwrap().mesh;
     if !lattice {
+        mesh = notched(&mesh).expect("more than a column of elements");
         distort(&mut mesh, 3e-3, 0.1);
-        mesh.hexes.rotate_left(7);
-        mesh.hexes.pop();
     }
     let model = Model::from_mesh(mesh, &scene.body).unwrap();
     (scene, model)
@@ -55,23 +61,31 @@ fn plan(model: &Model) -> Plan {
 fn loss_error(a: &crate::rig::Outcome, b: &crate::rig::Outcome) -> f64 {
     let most = b.windows.iter().fold(0.0f64, |m, w| m.max(w.dissipated));
     assert!(b.windows.iter().all(|w| w.dissipated > 0.0), "nothing is lost");
-    a.windows.iter().zip(&b.windows).fold(0.0f64, |m, (a, b)| m.max((a.dissipated - b.dissipated).abs())) / most
+    a.windows.iter().zip(&b.windows).fold(0.0f64, |m, (a, b)| m.max((a.dissipated - b.dissipated).abs()))
+        / most
 }
 
-/// Single precision as in `steps`: rounding of a coordinate, 4e-9 m, is 1e-6 of the strain.
+/// Single precision as in `steps`: rounding of a coordinate, 4e-9 m, is 1e-6 of the strain. Each force that it changes changes
+/// velocities.
 const SINGLE: f64 = 3e-5;
+const STATE: [(&str, f64); 1] = [("velocity", 5e-4)];
 
 pub fn agrees(gpu: &Gpu) {
     for element in ELEMENTS {
         for lattice in [true, false] {
-            let (scene, model) = wheel(element, lattice);
+            let (scene, model) = body(element, lattice);
             let plan = plan(&model);
             let exact = outcome(gpu, Who::Cpu64, &model, &scene, &plan);
             for who in [Who::Gpu, Who::Plus] {
                 let name = format!("{who:?} {element:?} lattice {lattice}");
                 let got = outcome(gpu, who, &model, &scene, &plan);
-                within(&name, &errors(&plan, OUTER_RADIUS, &got, &exact), &[("contact steps", 0.0)], SINGLE);
-                within(&name, &state_errors(&model, &got, &exact), &[], SINGLE);
+                within(
+                    &name,
+                    &errors(&plan, OUTER_RADIUS, &got, &exact),
+                    &[("residual forces", 2e-4), ("contact steps", 0.0)],
+                    SINGLE,
+                );
+                within(&name, &state_errors(&model, &got, &exact), &STATE, SINGLE);
                 let lost = loss_error(&got, &exact);
                 assert!(lost < SINGLE, "{name}: loss off by {lost:.1e}");
             }
@@ -80,20 +94,20 @@ pub fn agrees(gpu: &Gpu) {
     }
 }
 
-/// A ratio or a time off by 1 % is seen.
+/// A ratio off by 1 % is seen, and a time off by 5 %.
 fn mutants(gpu: &Gpu, plan: &Plan, element: Element, lattice: bool) {
-    let (scene, model) = wheel(element, lattice);
+    let (scene, model) = body(element, lattice);
     let got = outcome(gpu, Who::Gpu, &model, &scene, plan);
     for k in 0..series().terms.len() {
         for time in [false, true] {
             let mut wrong = model.clone();
             let term = &mut wrong.relaxation.terms[k];
-            *(if time { &mut term.time } else { &mut term.ratio }) *= 1.01;
+            *(if time { &mut term.time } else { &mut term.ratio }) *= if time { 1.05 } else { 1.01 };
             let exact = outcome(gpu, Who::Cpu64, &wrong, &scene, plan);
             let errors = state_errors(&model, &got, &exact);
             let lost = loss_error(&got, &exact);
             assert!(
-                errors.iter().any(|(_, e)| *e > SINGLE) || lost > SINGLE,
+                errors.iter().any(|(_, e)| *e > 5e-4) || lost > 5.0 * SINGLE,
                 "{element:?} term {k}, time {time}: unseen, {} loss {lost:.1e}",
                 list(&errors)
             );
@@ -104,7 +118,7 @@ fn mutants(gpu: &Gpu, plan: &Plan, element: Element, lattice: bool) {
 /// In double precision: the CPU's numbers to rounding.
 pub fn doubles(gpu: &Gpu) {
     for element in ELEMENTS {
-        let (scene, model) = wheel(element, true);
+        let (scene, model) = body(element, true);
         let plan = plan(&model);
         let [exact, got] = [Who::Cpu64, Who::Double].map(|who| outcome(gpu, who, &model, &scene, &plan));
         within("doubles", &errors(&plan, OUTER_RADIUS, &got, &exact), &[("contact steps", 0.0)], 1e-11);
@@ -115,7 +129,7 @@ pub fn doubles(gpu: &Gpu) {
 
 /// What a solver has set is at rest, whatever the points remembered; trial forces are those of the whole modulus, and change nothing.
 pub fn disturbed(gpu: &Gpu) {
-    let (scene, model) = wheel(Element::Q1p0, true);
+    let (scene, model) = body(Element::Q1p0, true);
     let plan = plan(&model);
     let go = |who| {
         let mut engine = engine(gpu, who, &model, &scene);

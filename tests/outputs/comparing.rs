@@ -34,7 +34,7 @@ fn a_run_with_itself_finds_nothing() {
     run(&b, &wheel(), |_, _| ());
     let found = compare(&a, &b).unwrap();
     assert_eq!((found.notes.len(), found.settings.len()), (0, 0), "{found}");
-    assert_eq!((found.history.matched, found.history.columns.len()), (10, 38));
+    assert_eq!((found.history.matched, found.history.columns.len()), (10, 39));
     assert!(found.history.columns.iter().all(|c| c.max_difference == 0.0 && c.relative_l2 == Some(0.0)));
     assert_eq!(found.snapshots.len(), 2);
     assert!(found.snapshots.iter().all(|s| s.fields.len() == 8));

@@ -80,7 +80,7 @@ fn a_bad_history_is_an_error_with_the_line_or_the_column() {
     let path = dir.join("history.csv");
     for (from, to, expected) in [
         ("rim_fx_N,", "", "column 9 is \"rim_fy_N\"; \"rim_fx_N\" is expected"),
-        (",dt_s", ",dt_s,more", "column 41 is \"more\"; no further column"),
+        (",dissipation_J", ",dissipation_J,more", "column 42 is \"more\"; no further column"),
         ("\n0.002,press,0.2", "\n0.002,press,zero", "line: 3"),
         ("\n0.002,press,0.2", "\n0.002,press", "line: 3"),
         ("time_s", "\u{1}", "column 1"),

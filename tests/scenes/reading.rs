@@ -128,8 +128,9 @@ fn a_prony_series_is_read_in_every_convention() {
     let (terms, law) = relaxing(&format!("{term}\nconstants = \"instantaneous\""));
     near(terms[0].0, 0.3 / 0.7);
     near(law, 0.7 * modulus);
-    let (terms, law) =
-        relaxing("terms = [{ ratio = 0.5, time = \"1 s\" }, { ratio = 1.5, time = \"2 ms\" }]\nratios = \"of-long-term\"");
+    let (terms, law) = relaxing(
+        "terms = [{ ratio = 0.5, time = \"1 s\" }, { ratio = 1.5, time = \"2 ms\" }]\nratios = \"of-long-term\"",
+    );
     assert_eq!((terms, law), (vec![(0.5, 1.0), (1.5, 0.002)], modulus));
     // At the reference nothing is shifted; c1 = 10, c2 = 40 and 10 K above it make all times 100 times shorter.
     let shifted = |temperature: f64| {
@@ -148,13 +149,18 @@ fn a_prony_series_that_cannot_be_is_refused() {
         assert!(shown.contains(key) && shown.contains(problem), "{section}: {shown}");
     };
     refused("terms = []", "body.material.relaxation.terms", "without a term");
-    refused("terms = [{ ratio = 0.6, time = \"1 s\" }, { ratio = 0.4, time = \"2 s\" }]", "terms", "nothing is left");
+    refused(
+        "terms = [{ ratio = 0.6, time = \"1 s\" }, { ratio = 0.4, time = \"2 s\" }]",
+        "terms",
+        "nothing is left",
+    );
     refused("terms = [{ ratio = -0.1, time = \"1 s\" }]", "terms.0.ratio", "positive");
     refused("terms = [{ ratio = 0.1, time = \"0 s\" }]", "terms.0.time", "positive");
     refused("terms = [{ ratio = 0.1, tau = \"1 s\" }]", "terms.0.tau", "unknown key");
     let cold = "terms = [{ ratio = 0.1, time = \"1 s\" }]\nshift = { c1 = 17, c2 = 50, reference = 20, temperature = -40 }";
     refused(cold, "shift.temperature", "no end");
-    let dynamic = GOOD.replace("[rim]", "[body.material.relaxation]\nterms = [{ ratio = 0.1, time = \"1 s\" }]\n[rim]");
+    let dynamic =
+        GOOD.replace("[rim]", "[body.material.relaxation]\nterms = [{ ratio = 0.1, time = \"1 s\" }]\n[rim]");
     let eq4 = dynamic.replace("law = \"mooney-rivlin\"", "law = \"mooney-rivlin-eq4\"");
     let shown = Scene::parse(&eq4, "bad.toml", &[]).expect_err("a mistake").to_string();
     assert!(shown.contains("no isochoric part"), "{shown}");

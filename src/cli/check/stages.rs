@@ -116,7 +116,11 @@ fn relaxation(scene: &Scene) -> Option<String> {
     let terms: Vec<String> = series.terms.iter().map(term).collect();
     (!terms.is_empty()).then(|| {
         let modulus = scene.body.law.shear_modulus() * instantaneous;
-        format!("Prony series, shares {}; instantaneous shear modulus {}", terms.join(", "), si(modulus, "Pa"))
+        format!(
+            "Prony series, shares {}; instantaneous shear modulus {}",
+            terms.join(", "),
+            si(modulus, "Pa")
+        )
     })
 }
 

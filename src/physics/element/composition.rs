@@ -38,7 +38,9 @@ impl Composition {
         match self.element {
             Element::Q1p0 if extruded => self.with_memory::<ExtrudedQ1p0, W>(work),
             Element::Full if extruded => self.with_memory::<ExtrudedFull, W>(work),
-            Element::UniformGradient { .. } if extruded => self.with_memory::<ExtrudedUniformGradient, W>(work),
+            Element::UniformGradient { .. } if extruded => {
+                self.with_memory::<ExtrudedUniformGradient, W>(work)
+            }
             Element::Q1p0 => self.with_memory::<Q1p0, W>(work),
             Element::Full => self.with_memory::<Full, W>(work),
             Element::UniformGradient { .. } => self.with_memory::<UniformGradient, W>(work),

@@ -28,7 +28,15 @@ impl<const EXTRUDED: bool> Formulation for FullOf<EXTRUDED> {
         v: &Corners<S>,
         memory: &mut R,
     ) -> Force<S> {
-        points::<S, L, V, G, R, true, EXTRUDED>(law, viscosity, class, &hex8::gradients(x), v, S::zero(), memory)
+        points::<S, L, V, G, R, true, EXTRUDED>(
+            law,
+            viscosity,
+            class,
+            &hex8::gradients(x),
+            v,
+            S::zero(),
+            memory,
+        )
     }
 
     #[inline(always)]

@@ -16,10 +16,10 @@
 //! ```
 
 use super::Lumping;
-pub use crate::tensor::gram;
 use crate::lanes::Lanes;
 use crate::material::{Derivatives, Hyperelastic};
 use crate::scalar::Scalar;
+pub use crate::tensor::gram;
 use crate::tensor::{
     Mat3, Metric, Sym3, Vec3, add, axpy, cofactor, combined, cross, det, dot, neg, scale, sub,
 };

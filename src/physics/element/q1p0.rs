@@ -31,7 +31,15 @@ impl<const EXTRUDED: bool> Formulation for Q1p0Of<EXTRUDED> {
         memory: &mut R,
     ) -> Force<S> {
         let pressure = law.dU(hex8::volume(x) * class.inverse_volume());
-        points::<S, L, V, G, R, false, EXTRUDED>(law, viscosity, class, &hex8::gradients(x), v, pressure, memory)
+        points::<S, L, V, G, R, false, EXTRUDED>(
+            law,
+            viscosity,
+            class,
+            &hex8::gradients(x),
+            v,
+            pressure,
+            memory,
+        )
     }
 
     #[inline(always)]
@@ -103,10 +111,26 @@ pub(super) fn points<
             let first = ($right == 0, $up == 0, $far == 0);
             if EXTRUDED {
                 let metric = InPlane(class.metric(q));
-                point::<S, L, V, G, _, R, POINTWISE>(given, &metric, (a, rate, mean), lines, first, memory, &mut report);
+                point::<S, L, V, G, _, R, POINTWISE>(
+                    given,
+                    &metric,
+                    (a, rate, mean),
+                    lines,
+                    first,
+                    memory,
+                    &mut report,
+                );
             } else {
                 let metric = class.metric(q);
-                point::<S, L, V, G, _, R, POINTWISE>(given, &metric, (a, rate, mean), lines, first, memory, &mut report);
+                point::<S, L, V, G, _, R, POINTWISE>(
+                    given,
+                    &metric,
+                    (a, rate, mean),
+                    lines,
+                    first,
+                    memory,
+                    &mut report,
+                );
             }
         };
     }

@@ -164,7 +164,14 @@ pub fn change<S: Scalar>(a: &Mat3<S>, rate: &Mat3<S>, dt: f64) -> Sym3<S> {
         let square = dot(rate[i], rate[j]);
         dt * half * (dot(a[i], rate[j]) + dot(a[j], rate[i]) - dt * square)
     };
-    Sym3 { xx: entry(0, 0), yy: entry(1, 1), zz: entry(2, 2), xy: entry(0, 1), xz: entry(0, 2), yz: entry(1, 2) }
+    Sym3 {
+        xx: entry(0, 0),
+        yy: entry(1, 1),
+        zz: entry(2, 2),
+        xy: entry(0, 1),
+        xz: entry(0, 2),
+        yz: entry(1, 2),
+    }
 }
 
 /// What the terms add at a point; they go on by a step, where that is kept.
@@ -194,8 +201,8 @@ pub fn overstress<S: Scalar, R: Memory<S>>(memory: &mut R, point: usize, at: &De
     let stress = sum.scaled(scale);
     let pressure = -third * at.gram.contracted(&stress);
     // Half a step back Sd was less by r G G^-1 E G^-1, to first order.
-    let isochoric = middle.contracted(&at.change)
-        - third * at.gram.contracted(&middle) * inverse.contracted(&at.change);
+    let isochoric =
+        middle.contracted(&at.change) - third * at.gram.contracted(&middle) * inverse.contracted(&at.change);
     let work = scale * (isochoric - stiffness * deviator_squared(&at.change, &inverse));
     Overstress { stress, pressure, work, loss }
 }

@@ -20,7 +20,9 @@ pub(super) fn relaxation(item: &Item, law: Law) -> Result<(Law, Relaxation)> {
     }
     let entries = table.need("terms", TERMS)?.entries()?;
     if entries.is_empty() {
-        return Err(table.at("terms").error("a series without a term", format!("write {TERMS}, or remove the section")));
+        return Err(table
+            .at("terms")
+            .error("a series without a term", format!("write {TERMS}, or remove the section")));
     }
     let terms = entries.iter().map(term).collect::<Result<Vec<_>>>()?;
     let share = instantaneous_share(&table, &terms)?;
