@@ -91,6 +91,8 @@ pub struct Window {
     pub works: Works,
     pub rim_impulse: [f64; 3],
     pub rim_moment_impulse: [f64; 3],
+    /// Impulse on the body of what drives each set of `Mesh::driven` along its prescribed components [N s].
+    pub reactions: Vec<[f64; 3]>,
     /// Every surface node (empty without a road).
     pub surface: Vec<SurfaceSum>,
     /// One entry a step of the window, in order (empty without a road).
@@ -118,6 +120,9 @@ impl Window {
             sums.rim_impulse[d] += later.rim_impulse[d];
             sums.rim_moment_impulse[d] += later.rim_moment_impulse[d];
         }
+        for (sum, more) in sums.reactions.iter_mut().zip(&later.reactions) {
+            (0..3).for_each(|d| sum[d] += more[d]);
+        }
         sums.step_contact.extend(&later.step_contact);
         let node = |(sum, node): (&SurfaceSum, &SurfaceSum)| SurfaceSum {
             impulse: std::array::from_fn(|d| sum.impulse[d] + node.impulse[d]),
@@ -132,6 +137,7 @@ impl Window {
             works: sums.works,
             rim_impulse: sums.rim_impulse,
             rim_moment_impulse: sums.rim_moment_impulse,
+            reactions: sums.reactions,
             surface: sums.surface.iter().zip(&later.surface).map(node).collect(),
             step_contact: sums.step_contact,
             dissipated: sums.dissipated + later.dissipated,

@@ -124,6 +124,16 @@ pub fn rounding_of_energy(shear_modulus: f64, volume: f64, epsilon: f64) -> f64 
     4.0 * epsilon * shear_modulus * volume
 }
 
+/// What a driven set has done in a window.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reaction {
+    /// Name of the node set.
+    pub set: String,
+    /// Displacement at the end of the window, before any turn [m], and the force of what drives the set on the body, without the
+    /// inertia of its nodes: mean over the window [N]. `None`: the component is free.
+    pub components: [Option<[f64; 2]>; 3],
+}
+
 /// State of a node that can touch the road.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]

@@ -34,6 +34,10 @@ nodes = "inner"
 [[hold]]
 nodes = "outer"
 components = "x"
+[[motion]]
+nodes = "y-max"
+x = { displacement = "1 mm", ramp = "5 ms" }
+y = { table = [["0 ms", "0 mm"]] }
 [road]
 [friction]
 coefficient = 0.5
@@ -87,6 +91,9 @@ fn the_guide_has_every_key_of_the_reader() {
         "body.material.",
         "rim.",
         "hold.0.",
+        "motion.0.",
+        "motion.0.x.",
+        "motion.0.y.",
         "road.",
         "friction.",
         "time_step.",
@@ -105,6 +112,10 @@ fn the_guide_has_every_key_of_the_reader() {
     ]
     .map(|section| (section, keys(section, &[])))
     .into();
+    for motion in ["y={ amplitude = \"1 mm\" }", "turn={ axis = [0, 1, 0], angle = \"1 deg\" }"] {
+        let section = if motion.starts_with('y') { "motion.0.y." } else { "motion.0.turn." };
+        sections.push((section, keys(section, &[&format!("motion.0.{motion}")])));
+    }
     sections.push(("road.", keys("road.", &["road.shape=drum"])));
     for kind in Friction::KINDS {
         sections.push(("friction.", keys("friction.", &[&format!("friction.law={}", kind.name)])));
@@ -138,6 +149,8 @@ fn the_guide_has_every_column_and_file() {
         "history.csv",
         "summary.json",
         "implicit.csv",
+        "reactions.csv",
+        "curves.csv",
         "run.pvd",
         "scene.toml",
         "contact_<k>.csv",

@@ -1,7 +1,9 @@
 //! Friction laws beyond Coulomb's: their curves, and what one step of contact makes of them.
 
 use hexroll::physics::contact::{self, Node, Touch};
-use hexroll::physics::friction::{Coulomb, PressureVelocity, Sliding, StaticKinetic, Stribeck, Viscous};
+use hexroll::physics::friction::{
+    Coulomb, Lat100, PressureVelocity, Sliding, StaticKinetic, Stribeck, Viscous,
+};
 use hexroll::physics::node::StepSize;
 use hexroll::physics::road::Plane;
 use hexroll::physics::tensor::{axpy, dot};
@@ -11,6 +13,7 @@ use hexroll_lab::rig::{Random, block, close, run};
 const STRIBECK: Friction = Friction::Stribeck(Stribeck { still: 1.2, kinetic: 0.7, speed: 0.1, slope: 0.05 });
 const FIT: Friction =
     Friction::PressureVelocity(PressureVelocity { a: 0.4, b: 0.5, pressure: 2e5, c: 0.3, speed: 0.2 });
+const LAT100: Friction = Friction::Lat100(Lat100 { a: 1.2, b: -0.5, alpha: 5e-6, c: 0.4, beta: 5.0 });
 const VISCOUS: Friction = Friction::Viscous(Viscous { slope: 0.8 });
 
 /// The curve at pressure p and speed v, as the documentation of scene files writes it.
@@ -23,6 +26,10 @@ fn expected(law: &Friction, p: f64, v: f64) -> f64 {
         }
         Friction::PressureVelocity(PressureVelocity { a, b, pressure, c, speed }) => {
             a + b * (-p / pressure).exp() + c * (-v / speed).exp()
+        }
+        Friction::Lat100(Lat100 { a, b, alpha, c, beta }) => {
+            let growth = |x: f64| if x > 0.0 { (-1.0 / x).exp() } else { 0.0 };
+            a + b * growth(alpha * p) + c * growth(beta * v)
         }
         Friction::StaticKinetic(StaticKinetic { still, kinetic }) => {
             if v > 0.0 {
@@ -40,7 +47,7 @@ fn coefficient(law: &Friction, pressure: f64, slip_speed: f64) -> f64 {
 
 #[test]
 fn every_law_has_its_curve() {
-    for law in [VISCOUS, STRIBECK, FIT] {
+    for law in [VISCOUS, STRIBECK, FIT, LAT100] {
         for v in [0.0, 0.03, 0.1, 0.5, 3.0] {
             for p in [0.0, 1e4, 2e5, 5e6] {
                 let (got, wanted) = (coefficient(&law, p, v), expected(&law, p, v));
@@ -52,6 +59,11 @@ fn every_law_has_its_curve() {
     // The numbers themselves, by hand: exp(-1) = 0.36788.
     close("Stribeck at its speed", coefficient(&STRIBECK, 0.0, 0.1), 0.7 + 0.5 * 0.367_879_44 + 0.005, 1e-8);
     close("fit at its pressure and speed", coefficient(&FIT, 2e5, 0.2), 0.4 + 0.8 * 0.367_879_44, 1e-8);
+    let there = 1.2 - 0.1 * 0.367_879_44;
+    close("LAT 100 at 1/alpha and 1/beta", coefficient(&LAT100, 2e5, 0.2), there, 1e-8);
+    // The limits, without a trace of the exponentials, in either precision.
+    assert_eq!(coefficient(&LAT100, 0.0, 0.0), 1.2);
+    assert_eq!(LAT100.coefficient(Sliding { pressure: 0.0f32, slip_speed: 0.0 }), 1.2f32);
 }
 
 const MASS: f64 = 2e-3;
@@ -81,7 +93,7 @@ fn friction_work(t: &Touch<f64>, before: [f64; 3]) -> f64 {
 fn friction_gives_energy_only_where_a_node_turns_round() {
     let mut random = Random::new(11);
     let (mut losses, mut gains) = (0, 0);
-    for law in [Friction::Coulomb(Coulomb { mu: 0.8 }), VISCOUS, STRIBECK, FIT] {
+    for law in [Friction::Coulomb(Coulomb { mu: 0.8 }), VISCOUS, STRIBECK, FIT, LAT100] {
         for _ in 0..2000 {
             let (before, mut v) = (random.vector(), random.vector());
             v[2] = -v[2].abs();
@@ -105,7 +117,7 @@ fn friction_gives_energy_only_where_a_node_turns_round() {
 #[test]
 fn friction_is_taken_at_the_speed_that_remains() {
     let mut random = Random::new(31);
-    for law in [VISCOUS, STRIBECK, FIT] {
+    for law in [VISCOUS, STRIBECK, FIT, LAT100] {
         let mut slid = 0;
         for _ in 0..2000 {
             let v = [random.signed(), random.signed(), -0.01 * (1.0 + random.signed())];

@@ -13,7 +13,7 @@ use hexroll::scene::{
 use hexroll_lab::rig::{Driver, GROUND, block, close, largest, simulate_with};
 
 fn hold(nodes: &str, components: [bool; 3]) -> Hold {
-    Hold { nodes: nodes.into(), components }
+    Hold { nodes: nodes.into(), components, reaction: false }
 }
 
 /// Half of a body with its symmetry plane held moves as the whole body does: a block that breathes along x and bends

@@ -4,7 +4,8 @@
 
 use hexroll::physics::element::hex8;
 use hexroll::physics::material::{
-    Hyperelastic, KelvinVoigt, Moduli, MooneyRivlin, Viscosity, WithLaw, Yeoh, velocity_gradient,
+    ArrudaBoyce, Derivatives, Hyperelastic, KelvinVoigt, Moduli, MooneyRivlin, Ogden, Viscosity, WithLaw,
+    Yeoh, velocity_gradient,
 };
 use hexroll::physics::tensor::{Identity, Mat3, axpy, cofactor, det, dot};
 use hexroll::scene::Law;
@@ -293,5 +294,106 @@ fn yeoh_with_one_constant_is_neo_hookean() {
     for _ in 0..50 {
         let F = random_deformation(&mut random);
         close("W", energy(&Law::Yeoh(yeoh), &F), energy(&RUBBER, &F), 1e-13);
+    }
+}
+
+/// One term of Ogden's law, or none.
+fn ogden(terms: &[(f64, f64)]) -> Ogden {
+    let term = |k: usize| terms.get(k).copied().unwrap_or_default();
+    let [(mu1, alpha1), (mu2, alpha2), (mu3, alpha3)] = [term(0), term(1), term(2)];
+    Ogden { mu1, alpha1, mu2, alpha2, mu3, alpha3, bulk_modulus: KAPPA }
+}
+
+/// With the powers 2 and -2 it has the slopes of the Mooney-Rivlin law, in double and in single precision, and a scene takes
+/// the cheaper code.
+#[test]
+fn ogden_with_powers_two_and_minus_two_is_mooney_rivlin() {
+    let mooney = |g1: f64, g2: f64| MooneyRivlin { g0: KAPPA, g1, g2 };
+    let both = ogden(&[(0.7 * G, 2.0), (0.3 * G, -2.0)]);
+    let pairs = [(ogden(&[(G, 2.0)]), mooney(G, 0.0)), (both, mooney(0.7 * G, 0.3 * G))];
+    assert_eq!(pairs[0].0.simplified(), RUBBER);
+    assert_eq!(pairs[1].0.simplified(), TWO_CONSTANTS);
+    assert_eq!(ogden(&[(G, 2.0), (G, 3.0)]).simplified(), Law::Ogden(ogden(&[(G, 2.0), (G, 3.0)])));
+    let mut random = Random::new(8);
+    for n in 0..200 {
+        // From 35 % of strain down to none.
+        let F = if n == 0 { diagonal(1.0, 1.0, 1.0) } else { random.near_identity(0.35 / f64::from(n)) };
+        let k = hex8::invariants::<f64, MooneyRivlin, _>(&hex8::gram(&F), &Identity);
+        let j = det(&F);
+        let numbers = |d: Derivatives<f64>| [d.w1, d.w2, d.wj];
+        let singles = |d: Derivatives<f32>| [d.w1, d.w2, d.wj].map(f64::from);
+        for (ogden, mooney) in pairs {
+            let (got, expected) = (ogden.derivatives(k.i1, k.i2, j), mooney.derivatives(k.i1, k.i2, j));
+            let (i1, i2, j) = (k.i1 as f32, k.i2 as f32, j as f32);
+            let (got32, expected32) = (ogden.derivatives(i1, i2, j), mooney.derivatives(i1, i2, j));
+            for i in 0..3 {
+                // Two equations for W1 and W2 from exponentials of some 60 operations, WJ eight times as large: 50 round-offs of G.
+                let error = numbers(got)[i] - numbers(expected)[i];
+                assert!(error.abs() < 1e-14 * G, "{ogden:?} at {F:?}: {i} off by {error}");
+                let error = singles(got32)[i] - singles(expected32)[i];
+                assert!(error.abs() < 6e-6 * G, "{ogden:?} in f32 at {F:?}: {i} off by {error}");
+            }
+            let error = energy(&ogden.into(), &F) - energy(&mooney.into(), &F);
+            assert!(error.abs() < 2e-14 * G, "W at {F:?}: off by {error}");
+        }
+    }
+}
+
+/// Stretches that coincide, or nearly, two of them or all three, along axes in any direction: the principal stresses by Ogden's own
+/// formula, sum 2 mu / alpha l^alpha less its mean.
+#[test]
+fn ogden_keeps_its_digits_where_stretches_coincide() {
+    let terms = [(0.7 * G, 1.3), (0.1 * G, 5.0), (0.2 * G, -2.0)];
+    let (law, mut random) = (ogden(&terms), Random::new(9));
+    let mut states = Vec::new();
+    for apart in [0.0, 1e-12, 1e-9, 1e-8, 1e-7, 1e-5, 1e-3] {
+        states.extend([[1.0, 1.0 + apart, 1.0], [1.0, 1.0 + apart, 1.0 - apart]]);
+        states.extend([[1.4, 1.4 + apart, 0.5], [0.7, 2.0, 0.7 + apart], [0.5, 0.5 - apart, 3.9]]);
+    }
+    for l in states {
+        let J: f64 = l.iter().product();
+        let powers = |l: f64| terms.map(|(mu, a)| 2.0 * mu / a * l.powf(a)).iter().sum::<f64>();
+        let t = |l: f64| powers(l * J.powf(-1.0 / 3.0));
+        let mean = l.map(t).iter().sum::<f64>() / 3.0;
+        let expected = l.map(|l| KAPPA * (J - 1.0) + (t(l) - mean) / J);
+        let axes = turned(&mut random);
+        // F = sum l_k n_k (x) n_k
+        let F: Mat3<f64> =
+            [0, 1, 2].map(|c| [0, 1, 2].map(|i| (0..3).map(|k| l[k] * axes[k][i] * axes[k][c]).sum()));
+        let sigma = cauchy(&Law::Ogden(law), &F);
+        for (n, expected) in axes.iter().zip(expected) {
+            let along = dot(*n, times(&sigma, *n));
+            // C and J with some ten round-offs each; J's times kappa.
+            let error = (along - expected).abs();
+            assert!(error < 2e-14 * KAPPA + 1e-13 * expected.abs(), "{l:?}: {along} is off by {error}");
+        }
+    }
+}
+
+/// Three orthogonal directions.
+fn turned(random: &mut Random) -> Mat3<f64> {
+    let unit = |v: [f64; 3]| v.map(|c| c / dot(v, v).sqrt());
+    let a = unit(random.vector());
+    let b = random.vector();
+    let b = unit(axpy(a, -dot(a, b), b));
+    [a, b, hexroll::physics::tensor::cross(a, b)]
+}
+
+/// Chains without a limit are neo-Hookean, but for the other volumetric energy; G is the series of the paper.
+#[test]
+fn arruda_boyce_with_endless_chains_is_neo_hookean() {
+    let l: f64 = 2.0;
+    let law = ArrudaBoyce { mu: 1.0, lambda_m: l, bulk_modulus: KAPPA };
+    let series = 1.0 + 3.0 / (5.0 * l.powi(2)) + 99.0 / (175.0 * l.powi(4)) + 513.0 / (875.0 * l.powi(6));
+    close("G / mu", law.shear_modulus(), series + 42_039.0 / (67_375.0 * l.powi(8)), 1e-15);
+    let endless = ArrudaBoyce { mu: G, lambda_m: 1e9, bulk_modulus: KAPPA };
+    let mut random = Random::new(10);
+    for _ in 0..50 {
+        let F = random_deformation(&mut random);
+        let j = det(&F);
+        let other = KAPPA * (0.25 * (j * j - 1.0) - 0.5 * j.ln()) - 0.5 * KAPPA * (j - 1.0).powi(2);
+        // What is left of the second term: 3/5 / lambda_m^2.
+        let expected = energy(&RUBBER, &F) + other;
+        assert!((energy(&endless.into(), &F) - expected).abs() < 1e-14 * KAPPA, "{F:?}");
     }
 }

@@ -4,7 +4,7 @@
 use hexroll::cpu::{self, Precision};
 use hexroll::model::Model;
 use hexroll::physics::element::hex8;
-use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean, Yeoh};
+use hexroll::physics::material::{ArrudaBoyce, MooneyRivlin, MooneyRivlinEq4, NeoHookean, Ogden, Yeoh};
 use hexroll::physics::tensor::{Mat3, det};
 use hexroll::scene::{Element, Law};
 use hexroll_lab::rig::{self, ELEMENTS, block, distort, largest, laws, times};
@@ -55,9 +55,44 @@ fn expected_stress(law: Law) -> Mat3<f64> {
             let e = i1b - 3.0;
             split([bulk_modulus, 2.0 * (c10 + 2.0 * c20 * e + 3.0 * c30 * e * e), 0.0], i, j)
         }
+        Law::ArrudaBoyce(ArrudaBoyce { mu, lambda_m, bulk_modulus }) => {
+            let c = [1.0 / 2.0, 1.0 / 20.0, 11.0 / 1050.0, 19.0 / 7000.0, 519.0 / 673_750.0];
+            let term = |n: usize| (n + 1) as f64 * c[n] * lambda_m.powi(-2 * n as i32) * i1b.powi(n as i32);
+            let g1 = 2.0 * mu * (0..5).map(term).sum::<f64>();
+            0.5 * bulk_modulus * (J - 1.0 / J) * unit(i, j) + split([0.0, g1, 0.0], i, j)
+        }
+        Law::Ogden(Ogden { mu1, alpha1, mu2, alpha2, mu3, alpha3, bulk_modulus }) => {
+            let (squares, axes) = principal(Bb);
+            let terms = [(mu1, alpha1), (mu2, alpha2), (mu3, alpha3)];
+            let t = squares.map(|b| terms.map(|(mu, a)| 2.0 * mu / a * b.powf(0.5 * a)).iter().sum::<f64>());
+            let mean = t.iter().sum::<f64>() / 3.0;
+            let T = (0..3).map(|k| (t[k] - mean) * axes[k][i] * axes[k][j]).sum::<f64>();
+            bulk_modulus * (J - 1.0) * unit(i, j) + T / J
+        }
     };
     let viscous = |i: usize, j: usize| ETA * (L[j][i] + L[i][j] - 2.0 / 3.0 * trace(&L) * unit(i, j));
     std::array::from_fn(|j| std::array::from_fn(|i| elastic(i, j) + viscous(i, j)))
+}
+
+/// Principal values of a symmetric matrix and its axes, by Jacobi's rotations.
+fn principal(mut A: Mat3<f64>) -> ([f64; 3], Mat3<f64>) {
+    let mut axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    for (p, q) in [(0, 1), (0, 2), (1, 2)].into_iter().cycle().take(36) {
+        let angle = 0.5 * (2.0 * A[p][q]).atan2(A[p][p] - A[q][q]);
+        let (s, c) = angle.sin_cos();
+        let turned = |a: &Mat3<f64>| {
+            let mut b = *a;
+            for k in 0..3 {
+                (b[p][k], b[q][k]) = (c * a[p][k] + s * a[q][k], c * a[q][k] - s * a[p][k]);
+            }
+            b
+        };
+        let transposed =
+            |a: Mat3<f64>| -> Mat3<f64> { std::array::from_fn(|i| std::array::from_fn(|j| a[j][i])) };
+        A = transposed(turned(&transposed(turned(&A))));
+        axes = turned(&axes);
+    }
+    ([A[0][0], A[1][1], A[2][2]], axes)
 }
 
 /// Volume mean of an element's Cauchy stress, sum_a f_a (x) x_a / v.

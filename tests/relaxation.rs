@@ -14,8 +14,8 @@ use hexroll::physics::material::{
 use hexroll::physics::tensor::Sym3;
 use hexroll::scene::{Drive, InitialVelocity, RimMotion, Scene, Stage};
 use hexroll_lab::rig::{
-    ELEMENTS, G, HELD, Random, block, book, close, distort, explicit, laws, press, relative, simulate_with,
-    times, wheel,
+    ELEMENTS, G, HELD, Random, block, book, close, distort, explicit, laws, press, relative, shipped,
+    simulate_with, times, wheel,
 };
 
 const CUBE: Corners<f64> = [
@@ -529,4 +529,26 @@ fn rolling_loses_most_where_the_loss_modulus_is_largest() {
     let [fast, best, slow] = [2e-5, 2e-3, 0.2].map(rolling_loss);
     assert!(best > 5.0 * fast && best > 5.0 * slow, "{fast} {best} {slow} W");
     assert!(fast > 0.0 && slow > 0.0);
+}
+
+/// The shipped scene, as anybody runs it: the loss angle from the force that drives the block, and the energy that a cycle loses.
+#[test]
+fn the_sheared_block_of_the_scenes_lags_by_its_loss_angle() {
+    let outcome = hexroll_lab::rig::run(&shipped::<&str>("sheared_rubber_loss", &[]));
+    let omega = std::f64::consts::TAU * 1.332;
+    let half = 100;
+    // Means over windows belong to their middles. Two whole cycles.
+    let [mut sine, mut cosine] = [0.0; 2];
+    let rows = outcome.samples.len();
+    for (sample, reactions) in outcome.samples.iter().zip(&outcome.reactions).skip(rows - 2 * half) {
+        let force = reactions.iter().find(|r| r.set == "z-max").unwrap().components[0].unwrap()[1];
+        let phase = omega * (sample.time_s - 0.5 * 7.5075e-3);
+        (sine, cosine) = (sine + force * phase.sin(), cosine + force * phase.cos());
+    }
+    close("tan delta", cosine / sine, 0.1793, 5e-3);
+    let lost = |row: usize| outcome.samples[row].dissipation_J;
+    let cycle = lost(rows - 1) - lost(rows - 1 - half);
+    close("loss of a cycle", cycle, 0.1325, 5e-3);
+    let worst = outcome.samples.iter().fold(0.0f64, |m, s| m.max(s.stored_balance_error_J.abs()));
+    assert!(worst < 5e-3 * outcome.last().external_work_J, "{worst} of {}", outcome.last().external_work_J);
 }

@@ -222,6 +222,9 @@ impl Competition<'_> {
     fn decide(&self) -> Result<Chosen> {
         let reports = adapters();
         let name = self.args.adapter.as_deref();
+        if self.scene.beyond_gpu().is_some() && name.is_none() {
+            return self.cpu("moved components and reactions are the CPU engine's alone");
+        }
         match usable(&reports, name) {
             Some(report) if !report.has(self.on_gpu) && name.is_none() => {
                 self.cpu(&format!("{} has no {}", report.name, self.on_gpu))

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::progress::Display;
 use hexroll::output::RunWriter;
-use hexroll::record::{NewtonRow, Sample, Snapshot};
+use hexroll::record::{NewtonRow, Reaction, Sample, Snapshot};
 use hexroll::run::{Observer, Progress, Totals};
 use hexroll::{Error, Result};
 
@@ -82,6 +82,10 @@ impl Observer for Recorder<'_, '_> {
 
     fn increment(&mut self, iterations: &[NewtonRow]) -> Result<()> {
         self.writer.iterations(iterations)
+    }
+
+    fn reactions(&mut self, row: &Sample, sets: &[Reaction]) -> Result<()> {
+        self.writer.reactions(row, sets)
     }
 
     fn interrupted(&self) -> bool {

@@ -1,6 +1,7 @@
 //! The CPU engine: a program, the arrays it works on, and the reports of [`Engine`].
 
 use super::course::Course;
+use super::driven;
 use super::energies::Stored;
 use super::plan::Plan;
 use super::program::Program;
@@ -16,9 +17,9 @@ use crate::kernels::Item;
 use crate::kernels::LineSums;
 use crate::kernels::memory::vectors;
 use crate::kernels::{Aligned, Arrays};
-use crate::model::mesh::Mesh;
+use crate::model::mesh::{Driven, Mesh};
 use crate::model::{Model, areas, frame};
-use crate::physics::lanes::Level;
+use crate::physics::lanes::{Level, WIDEST};
 use crate::physics::material::Pace;
 use crate::physics::rim::Coordinates;
 use crate::physics::tensor::vec3;
@@ -50,6 +51,7 @@ pub struct CpuEngine<T> {
     viscous: bool,
     /// For the areas of surface nodes, where friction looks at pressure.
     mesh: Option<Mesh>,
+    driven: Vec<Driven>,
     setup: StageSetup,
     rim: RimState,
     grain: f64,
@@ -105,11 +107,14 @@ impl<T: Compilable> CpuEngine<T> {
                 frame,
                 relaxation: model.relaxation.clone(),
                 shear_modulus: model.law.shear_modulus(),
+                driven: mesh.driven.len(),
+                planned_from: 0,
             },
             stored,
             level,
             viscous: model.viscosity.is_some(),
             mesh: scene.friction.filter(Friction::needs_area).map(|_| mesh.clone()),
+            driven: mesh.driven.clone(),
             setup: StageSetup::default(),
             rim: RimState::new(model),
             grain,
@@ -128,6 +133,7 @@ impl<T: Compilable> CpuEngine<T> {
 
     /// Takes steps; on failure the state is that of the failing step.
     fn take(&mut self, steps: &[Step]) -> std::result::Result<Taken, Stopped> {
+        self.plan_driven(steps);
         let [x, v] = &mut self.before;
         x.copy_from(&self.arrays.x);
         v.copy_from(&self.arrays.v);
@@ -154,6 +160,14 @@ impl<T: Compilable> CpuEngine<T> {
     /// Whether points remember.
     fn remembers(&self) -> bool {
         !self.world.relaxation.terms.is_empty()
+    }
+
+    /// Poses of driven sets for the steps that come.
+    fn plan_driven(&mut self, steps: &[Step]) {
+        if !self.driven.is_empty() {
+            self.world.planned_from = self.steps;
+            self.program.nodes.driven.poses = driven::poses(&self.driven, steps, self.world.frame);
+        }
     }
 
     /// Lets the frame follow the axle, when single precision would otherwise run out of digits.
@@ -276,6 +290,7 @@ impl<T: Compilable> Engine for CpuEngine<T> {
         let energies = self.stored.totals(&self.program.elements.items, x);
         let kinetic = self.kinetic();
         let next = std::slice::from_ref(next);
+        self.plan_driven(next);
         let course = Course::new(&self.world, &self.setup, self.steps, next, self.rim, self.rested);
         let probe = self.program.probe(&mut self.arrays, &course);
         let window = Window {
@@ -283,6 +298,7 @@ impl<T: Compilable> Engine for CpuEngine<T> {
             works,
             rim_impulse: committed.rim_impulse,
             rim_moment_impulse: committed.rim_moment_impulse,
+            reactions: driven::reactions(&self.program, self.driven.len(), &self.arrays.reactions),
             surface,
             step_contact: std::mem::take(&mut self.step_contact),
             rim: self.rim.q,
@@ -294,6 +310,7 @@ impl<T: Compilable> Engine for CpuEngine<T> {
             min_jacobian: energies.min_jacobian,
             dissipated,
         };
+        self.arrays.reactions.fill([[0.0; WIDEST]; 3]);
         self.follow();
         self.program.nodes.inverse_area = self.inverse_areas(|n| self.absolute(n as usize));
         Ok(window)

@@ -86,6 +86,7 @@
 //! ```
 
 mod course;
+mod driven;
 mod energies;
 mod engine;
 pub mod memory;
@@ -156,7 +157,7 @@ mod tests {
     #[test]
     fn sizes_are_as_documented() {
         let sizes = [size_of::<NodeBatch>(), size_of::<Batch>(), size_of::<Row>(), size_of::<LineSums>()];
-        assert_eq!(sizes, [24, 12, 80, 1728]);
+        assert_eq!(sizes, [28, 12, 80, 1728]);
         // With the node's number and its last step in contact.
         assert_eq!(size_of::<SurfaceSum>() + 4 + 8, 116);
     }

@@ -1,7 +1,7 @@
 //! A compiled body: its plan with the numbers that go with it. Constant while steps are taken.
 
 use super::plan::{Plan, Share};
-use super::tables::{boundary, masses, shape_table, sub64};
+use super::tables::{boundary, driven, masses, shape_table, sub64};
 use crate::kernels::elements::Elements;
 use crate::kernels::{Field, Item, Nodes, Passes};
 use crate::model::Model;
@@ -28,13 +28,14 @@ impl<T: Real> Program<T> {
         let [mass, inverse_mass] = masses(model, &plan);
         let (surface_of, rim_arms) = boundary(model, &plan, surface, width);
         let rim_nodes = rim_nodes(model, &plan);
+        let driven = driven(model, &plan, width);
         let Plan { items, lines, shares, place, .. } = plan;
         let inverse_area = Vec::new();
         let first_batch = first_batches(&items);
         Program {
             passes,
             elements: Elements { items, first_batch, shapes },
-            nodes: Nodes { lines, mass, inverse_mass, surface_of, rim_arms, inverse_area },
+            nodes: Nodes { lines, mass, inverse_mass, surface_of, rim_arms, inverse_area, driven },
             shares,
             place,
             rim_nodes,

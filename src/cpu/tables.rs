@@ -1,8 +1,9 @@
 //! A model's numbers as the passes read them: tables by place, line and lane.
 
 use super::plan::Plan;
-use crate::kernels::{Aligned, Field};
+use crate::kernels::{Aligned, Driven, Field};
 use crate::model::Model;
+use crate::physics::lanes::WIDEST;
 use crate::physics::scalar::Real;
 use std::ops::Range;
 
@@ -38,6 +39,26 @@ pub fn boundary<T: Real>(model: &Model, plan: &Plan, surface: &[u32], width: usi
         rim_arms.set(lane_of[n as usize], sub64(model.mesh.nodes[n as usize], model.mesh.axle));
     }
     (surface_of, rim_arms)
+}
+
+/// Batches with driven nodes, with where their nodes are from the point that their set turns about; no poses yet. A node that belongs to
+/// several sets has one arm: sets that turn have all components of their nodes to themselves, and others share the point.
+pub fn driven<T: Real>(model: &Model, plan: &Plan, width: usize) -> Driven<T> {
+    let mut arms = Field::zeros(plan.driven.len() * WIDEST);
+    for line in &plan.lines {
+        for (batch, nodes) in line.batches.iter().zip(line.nodes.chunks(width)).filter(|(b, _)| b.driven != 0)
+        {
+            let number = batch.driven as usize - 1;
+            for part in &plan.driven[number] {
+                let set = &model.mesh.driven[part.set as usize];
+                let lanes = part.lanes.iter().fold(0, |all, lanes| all | lanes);
+                for (lane, &n) in nodes.iter().enumerate().filter(|(lane, _)| lanes >> lane & 1 == 1) {
+                    arms.set(number * WIDEST + lane, set.arm(model.mesh.nodes[n as usize]));
+                }
+            }
+        }
+    }
+    Driven { batches: plan.driven.clone(), arms, poses: Vec::new() }
 }
 
 /// Reference geometry by lanes: these numbers of every class, one after the other.

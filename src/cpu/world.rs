@@ -22,6 +22,9 @@ pub struct World<T> {
     /// Prony series of the material, and shear modulus of its law [Pa].
     pub relaxation: Relaxation,
     pub shear_modulus: f64,
+    /// Driven sets, and the first step whose poses are planned.
+    pub driven: usize,
+    pub planned_from: u64,
 }
 
 impl<T: Real> World<T> {
@@ -52,6 +55,7 @@ impl<T: Real> World<T> {
             weights: [s(0.5 * step.dtm()); 2],
             has_gravity: self.gravity.iter().any(|g| *g != T::zero()),
             has_damping: self.mass_damping != 0.0,
+            driven: self.driven * (number - self.planned_from) as usize,
             number,
         }
     }

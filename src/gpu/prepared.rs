@@ -60,6 +60,9 @@ impl Prepared {
     /// # Errors
     /// It does not fit the adapter's limits, or the adapter does not have the precision.
     pub fn new(gpu: &Gpu, model: &Model, scene: &Scene, precision: Precision) -> Result<Prepared> {
+        if let Some(gap) = scene.beyond_gpu() {
+            return Err(gap);
+        }
         precision.check(gpu)?;
         let real = precision.real();
         let mesh = scene.friction.filter(Friction::needs_area).map(|_| model.mesh.clone());

@@ -67,6 +67,13 @@ impl Books {
             self.window.rim_impulse[i] += dt * force[i];
             self.window.rim_moment_impulse[i] += dt * moment[i];
         }
+        let sets = &s.problem.model.mesh.driven;
+        self.window.reactions.resize(sets.len(), [0.0; 3]);
+        for (sum, set) in self.window.reactions.iter_mut().zip(sets) {
+            for d in (0..3).filter(|&d| set.components[d]) {
+                sum[d] += dt * set.nodes.iter().map(|&n| s.internal[n as usize][d]).sum::<f64>();
+            }
+        }
         for (k, sum) in self.window.surface.iter_mut().enumerate() {
             let n = s.problem.model.mesh.surface[k] as usize;
             sum.touches = s.status[k] != Status::Free;
@@ -101,6 +108,15 @@ impl Books {
             return works;
         }
         works.damping = -alpha * mass * dot(mean(self.v[n], s.v[n]), way);
+        if let Some(driven) = s.problem.driven.get(n) {
+            // What drives a component balances all other forces, and gives it its inertia.
+            let others = sub(sub(internal, gravity), scale(mean(self.v[n], s.v[n]), -alpha * mass));
+            let inertia = if s.scheme == Scheme::Static { 0.0 } else { 0.5 * mass };
+            let work = |d: usize| {
+                others[d] * way[d] + inertia * (s.v[n][d] * s.v[n][d] - self.v[n][d] * self.v[n][d])
+            };
+            works.rim = (0..3).filter(|&d| driven[d]).map(work).sum();
+        }
         let contact = mean(self.contact[n], s.contact[n]);
         if let Some(surface) = s.surface() {
             let normal = surface.road.normal(s.x[n]);

@@ -247,7 +247,7 @@ fn damped(
     const SMALLEST: f64 = 1.0 / 64.0;
     let mut share = first;
     loop {
-        let trial = moved(problem, at, correction, share);
+        let trial = moved(problem, inc, at, correction, share);
         match problem.residual(inc, &trial) {
             Err(element) if share <= SMALLEST => return Err(element),
             Err(_) => {}
@@ -262,7 +262,13 @@ fn damped(
     }
 }
 
-fn moved(problem: &Problem<'_>, at: &Iterate, correction: &Correction, share: f64) -> Iterate {
+fn moved(
+    problem: &Problem<'_>,
+    inc: &Increment,
+    at: &Iterate,
+    correction: &Correction,
+    share: f64,
+) -> Iterate {
     let mut x = at.x.clone();
     super::matrix::axpy(&mut x, share, &correction.dx);
     let q = std::array::from_fn(|c| {
@@ -270,5 +276,8 @@ fn moved(problem: &Problem<'_>, at: &Iterate, correction: &Correction, share: f6
         if share == 1.0 { correction.q[c] } else { at.q[c] + share * (correction.q[c] - at.q[c]) }
     });
     problem.rim.place(&q, &mut x);
+    if share == 1.0 {
+        inc.driven.iter().for_each(|&(n, d, place)| x[n as usize][d] = place);
+    }
     Iterate { x, q, status: at.status.clone() }
 }

@@ -19,6 +19,8 @@ pub struct Problem<'a> {
     pub on_rim: Vec<bool>,
     /// Components that do not follow from the equations: a rim node's, and those that the scene holds at rest.
     pub given: Vec<[bool; 3]>,
+    /// Of these, the components that follow a motion; empty without one.
+    pub driven: Vec<[bool; 3]>,
 }
 
 /// What stays the same during an increment. Per-node fields have shape `[node_count]`.
@@ -42,6 +44,8 @@ pub struct Increment {
     pub start: Vec<Vec3<f64>>,
     pub surface: Option<Surface>,
     pub rim: RimIncrement,
+    /// Node, component and position at the end of what follows a motion [m].
+    pub driven: Vec<(u32, usize, f64)>,
 }
 
 /// The rim in an increment.
@@ -88,7 +92,27 @@ impl<'a> Problem<'a> {
         for (given, bits) in given.iter_mut().zip(&model.mesh.held) {
             (0..3).for_each(|d| given[d] |= bits >> d & 1 == 1);
         }
-        Problem { model, assembler: Assembler::new(model), rim: RimNodes::new(model), gravity, on_rim, given }
+        let mut driven = vec![[false; 3]; if model.mesh.driven.is_empty() { 0 } else { model.node_count() }];
+        for set in &model.mesh.driven {
+            for &n in &set.nodes {
+                (0..3).for_each(|d| driven[n as usize][d] |= set.components[d]);
+            }
+        }
+        let (assembler, rim) = (Assembler::new(model), RimNodes::new(model));
+        Problem { model, assembler, rim, gravity, on_rim, given, driven }
+    }
+
+    /// Where what follows a motion is at a time.
+    pub fn driven_at(&self, time: f64) -> Vec<(u32, usize, f64)> {
+        let mut all = Vec::new();
+        for set in &self.model.mesh.driven {
+            let pose = set.motion.pose(time);
+            for &n in &set.nodes {
+                let x = pose.place(set.arm(self.model.mesh.nodes[n as usize]));
+                all.extend((0..3).filter(|&d| set.components[d]).map(|d| (n, d, x[d])));
+            }
+        }
+        all
     }
 
     /// Whether the tangent is symmetric up to round-off: without viscosity, and in statics.

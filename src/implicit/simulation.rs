@@ -188,6 +188,7 @@ impl<'a> Simulation<'a> {
             start: self.x.clone(),
             surface,
             rim: self.rim_increment(target),
+            driven: self.problem.driven_at(target.time),
         };
         if let Scheme::Dynamic { delta } = self.scheme {
             inc.damping = target.damping;

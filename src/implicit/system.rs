@@ -57,6 +57,9 @@ impl System {
             known[n] =
                 std::array::from_fn(|i| if problem.on_rim[n] { known[n][i] - at.x[n][i] } else { 0.0 });
         }
+        for &(n, d, x) in &inc.driven {
+            known[n as usize][d] = x - at.x[n as usize][d];
+        }
         let mut rhs: Vec<Vec3<f64>> = residual.r.iter().map(|r| r.map(|c| -c)).collect();
         let mut fixed = problem.given.clone();
         let mut columns = vec![None; count];

@@ -1,8 +1,9 @@
 //! Work and impulse of every force on a line, in lanes while it is worked on.
 
 use super::conditions::Conditions;
+use super::layout::DrivenPart;
 use super::sums::LineSums;
-use crate::physics::lanes::Lanes;
+use crate::physics::lanes::{Lanes, WIDEST};
 use crate::physics::node::{self, Loads, Prediction};
 use crate::physics::scalar::Scalar;
 use crate::physics::tensor::{Vec3, add, axpy, cross, dot, scale, sub};
@@ -121,6 +122,53 @@ pub fn book<N: Lanes, const PROBE: bool>(
         let net = scale(sub(moved.v, v), mass * lanes.inverse_dtm);
         sums.net_force2 += zero.choose(dot(net, net), rim);
         sums.internal_force2 += zero.choose(dot(f_int, f_int), rim);
+    }
+}
+
+/// Adds the works of what drives the components of a batch: the force that is needed besides all others.
+#[allow(clippy::too_many_arguments)] // a batch's whole step
+#[inline(always)]
+pub fn book_driven<N: Lanes>(
+    sums: &mut LaneSums<N>,
+    c: &Conditions<N::Real>,
+    lanes: &LaneConditions<N>,
+    parts: &[DrivenPart],
+    mass: N,
+    whole: Vec3<N>,
+    v: Vec3<N>,
+    moved: &Moved<N>,
+) {
+    let way = axpy(moved.v, lanes.weights[1], scale(v, lanes.weights[0]));
+    let net = scale(sub(moved.v, v), mass * lanes.inverse_dtm);
+    let mut force = sub(add(net, whole), scale(lanes.loads.gravity, mass));
+    if c.has_damping {
+        force = sub(force, node::damping_force(&lanes.loads, mass, v, moved.v));
+    }
+    let zero = N::zero();
+    for part in parts {
+        sums.rim += (force[0] * way[0]).choose(zero, part.lanes[0]);
+        sums.rim += (force[1] * way[1]).choose(zero, part.lanes[1]);
+        sums.rim += (force[2] * way[2]).choose(zero, part.lanes[2]);
+    }
+}
+
+/// Adds the impulses of what drives the components of a batch: the internal force that it takes, as the rim's.
+#[inline(always)]
+pub fn add_reactions<N: Lanes>(
+    sums: &mut [[f64; WIDEST]; 3],
+    parts: &[DrivenPart],
+    whole: Vec3<N>,
+    c: &Conditions<N::Real>,
+) {
+    let (zero, dtm) = (N::zero(), N::splat(c.step.dtm));
+    for part in parts {
+        let masks = part.lanes;
+        // SAFETY: there is a sum for each of the widest lanes.
+        unsafe {
+            (whole[0] * dtm).choose(zero, masks[0]).add_to(sums[0].as_mut_ptr());
+            (whole[1] * dtm).choose(zero, masks[1]).add_to(sums[1].as_mut_ptr());
+            (whole[2] * dtm).choose(zero, masks[2]).add_to(sums[2].as_mut_ptr());
+        }
     }
 }
 

@@ -27,6 +27,8 @@ pub struct Conditions<T> {
     /// Whether there is a body force, and mass damping: neither is booked otherwise.
     pub has_gravity: bool,
     pub has_damping: bool,
+    /// Where the poses of driven sets begin that belong to the step.
+    pub driven: usize,
     /// Number of the step, which touching nodes remember.
     pub number: u64,
 }

@@ -4,6 +4,7 @@
 use super::rows::Rows;
 use super::state::{Aligned, Field};
 use crate::physics::lanes::WIDEST;
+use crate::physics::tensor::{Mat3, Vec3};
 
 /// At most as many elements as there are lanes, with nothing in common.
 #[derive(Debug, Clone)]
@@ -61,6 +62,38 @@ pub struct NodeBatch {
     pub held: [u32; 3],
     /// Of a batch with rim or surface nodes: where its lanes begin in tables of such batches alone.
     pub boundary: u32,
+    /// Of a batch with driven nodes: its number among those, plus one; 0: it has none.
+    pub driven: u32,
+}
+
+/// Lanes of a batch whose nodes belong to a driven set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DrivenPart {
+    /// Number of the set.
+    pub set: u32,
+    /// Its prescribed components: lanes by component.
+    pub lanes: [u32; 3],
+}
+
+/// Where a driven set is at the end of a step, and how it got there: a node with the arm a is at `at` + `rotation` a, its mean
+/// velocity is `velocity` + `rate` a. Matrices are their columns.
+#[derive(Debug, Clone, Copy)]
+pub struct DrivenPose<T> {
+    pub at: Vec3<T>,
+    pub rotation: Mat3<T>,
+    pub velocity: Vec3<T>,
+    pub rate: Mat3<T>,
+}
+
+/// Sets of nodes whose components follow a motion.
+#[derive(Debug, Clone)]
+pub struct Driven<T> {
+    /// By batch, in the order of lines.
+    pub batches: Vec<Vec<DrivenPart>>,
+    /// Positions of the nodes from the point that their set turns about, by batch and lane (as many as the widest lanes).
+    pub arms: Field<T>,
+    /// Poses of all sets step by step, from the step [`crate::Conditions::driven`] counts from.
+    pub poses: Vec<DrivenPose<T>>,
 }
 
 /// Consecutive nodes.
@@ -77,6 +110,8 @@ pub struct Line {
     /// Forces come lane by lane: the slots must be zero before a step.
     pub loose: bool,
     pub has_rim: bool,
+    /// Whether some nodes belong to a driven set.
+    pub driven: bool,
     /// Whether all of its nodes are free of rim and holds.
     pub plain: bool,
     /// Its number among the lines that can touch the road.
@@ -95,4 +130,5 @@ pub struct Nodes<T> {
     pub rim_arms: Field<T>,
     /// One over the area of each surface node [1/m2], as of the last sample; empty unless friction looks at pressure.
     pub inverse_area: Vec<T>,
+    pub driven: Driven<T>,
 }

@@ -25,7 +25,7 @@ mod touch;
 use hexroll_physics as physics;
 
 pub use conditions::Conditions;
-pub use layout::{Item, Line, Loose, NodeBatch, Nodes};
+pub use layout::{Driven, DrivenPart, DrivenPose, Item, Line, Loose, NodeBatch, Nodes};
 pub use rows::{Batch, Row, Rows, runs};
 pub use shared::{Arrays, Shared, Sizes};
 pub use state::{Aligned, Field};

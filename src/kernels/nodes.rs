@@ -1,13 +1,15 @@
 //! The node pass, several nodes at a time: gather, acceleration, contact projection, integration, and the
 //! book-keeping of every force.
 
-use super::books::{LaneConditions, LaneSums, Moved, book, choose3, fold, splat3};
+use super::books::{
+    LaneConditions, LaneSums, Moved, add_reactions, book, book_driven, choose3, fold, splat3,
+};
 use super::conditions::Conditions;
 use super::layout::{Line, Nodes};
 use super::shared::{Places, Shared};
 use super::sums::LineContact;
 use super::touch::{LineStep, touch};
-use crate::physics::lanes::{InLanes, Instructions, Lanes};
+use crate::physics::lanes::{InLanes, Instructions, Lanes, WIDEST};
 use crate::physics::scalar::Real;
 use crate::physics::tensor::{Vec3, add, axpy, combined, dot, scale};
 
@@ -167,12 +169,7 @@ unsafe fn line_in<N: Lanes, const PROBE: bool>(step: &LineStep<N::Real>) {
         // SAFETY: nodes and slots of a line are whoever's who steps it, and arrays by place have whole vectors.
         unsafe {
             let whole = forces.internal_force::<N>(places, offset);
-            let f_int = moving::<N>(batch.held, whole);
-            if PROBE && batch.held != [0; 3] {
-                // What holds a node pushes back, as a road does: it belongs to the scale of forces.
-                let held = dot(whole, whole) - dot(f_int, f_int);
-                sums.internal_force2 += N::zero().choose(held, batch.rim);
-            }
+            let mut f_int = moving::<N>(batch.held, whole);
             let x = load3::<N>(&places.x, at);
             let v = load3::<N>(&places.v, at);
             let (mass, w) = (N::load(masses.0, at), N::load(masses.1, at));
@@ -187,6 +184,20 @@ unsafe fn line_in<N: Lanes, const PROBE: bool>(step: &LineStep<N::Real>) {
                 let carried = carried::<N>(nodes, c, batch.boundary as usize);
                 moved.x = choose3(carried.x, moved.x, batch.rim);
                 moved.v = choose3(carried.v, moved.v, batch.rim);
+            }
+            if batch.driven != 0 {
+                let number = batch.driven as usize - 1;
+                (f_int, moved) = driven::<N>(nodes, c, number, whole, f_int, moved);
+                let parts = nodes.driven.batches.get_unchecked(number);
+                book_driven::<N>(&mut sums, c, &lanes, parts, mass, whole, v, &moved);
+                if !PROBE {
+                    add_reactions::<N>(shared.reactions(number), parts, whole, c);
+                }
+            }
+            if PROBE && batch.held != [0; 3] {
+                // What holds a node pushes back, as a road does: it belongs to the scale of forces.
+                let held = dot(whole, whole) - dot(f_int, f_int);
+                sums.internal_force2 += N::zero().choose(held, batch.rim);
             }
             book::<N, PROBE>(&mut sums, c, &lanes, batch.rim, mass, f_int, x, v, &moved);
             if !PROBE {
@@ -203,7 +214,7 @@ unsafe fn line_in<N: Lanes, const PROBE: bool>(step: &LineStep<N::Real>) {
         if let (Some(k), false) = (line.surface, PROBE) {
             *shared.contact(c.number, k) = contact;
         }
-        fold::<N, PROBE>(shared.sums(number), &sums, c, line.has_rim);
+        fold::<N, PROBE>(shared.sums(number), &sums, c, line.has_rim || line.driven);
     }
 }
 
@@ -270,6 +281,52 @@ unsafe fn store3<N: Lanes>(v: Vec3<N>, field: &[*mut N::Real; 3], at: usize) {
         v[1].store(field[1], at);
         v[2].store(field[2], at);
     }
+}
+
+/// Prescribed components go where their set takes them, with the internal force on them; other components as they are.
+///
+/// # Safety
+/// `number` is a batch with driven nodes, and the poses of the step are there.
+#[inline(always)]
+unsafe fn driven<N: Lanes>(
+    nodes: &Nodes<N::Real>,
+    c: &Conditions<N::Real>,
+    number: usize,
+    whole: Vec3<N>,
+    mut f_int: Vec3<N>,
+    mut moved: Moved<N>,
+) -> (Vec3<N>, Moved<N>) {
+    let driven = &nodes.driven;
+    let arms = |d| driven.arms.component(d).as_ptr();
+    let at = number * WIDEST;
+    // SAFETY: the caller's promise; the widest lanes have room at every batch.
+    let arm = unsafe { [N::load(arms(0), at), N::load(arms(1), at), N::load(arms(2), at)] };
+    // SAFETY: the caller's promise.
+    for part in unsafe { driven.batches.get_unchecked(number) } {
+        // SAFETY: the caller's promise.
+        let pose = unsafe { driven.poses.get_unchecked(c.driven + part.set as usize) };
+        let r = [splat3::<N>(pose.rotation[0]), splat3(pose.rotation[1]), splat3(pose.rotation[2])];
+        let rate = [splat3::<N>(pose.rate[0]), splat3(pose.rate[1]), splat3(pose.rate[2])];
+        let x = add(splat3(pose.at), combined(&r, arm[0], arm[1], arm[2]));
+        let v = add(splat3(pose.velocity), combined(&rate, arm[0], arm[1], arm[2]));
+        let masks = part.lanes;
+        moved.x = [
+            x[0].choose(moved.x[0], masks[0]),
+            x[1].choose(moved.x[1], masks[1]),
+            x[2].choose(moved.x[2], masks[2]),
+        ];
+        moved.v = [
+            v[0].choose(moved.v[0], masks[0]),
+            v[1].choose(moved.v[1], masks[1]),
+            v[2].choose(moved.v[2], masks[2]),
+        ];
+        f_int = [
+            whole[0].choose(f_int[0], masks[0]),
+            whole[1].choose(f_int[1], masks[1]),
+            whole[2].choose(f_int[2], masks[2]),
+        ];
+    }
+    (f_int, moved)
 }
 
 /// Rim nodes go where the rim puts them; `boundary`: of their batch.

@@ -23,6 +23,8 @@ pub struct Arrays<T> {
     /// Sums of the window so far, and the last step in which a node touched plus one (0: never), by surface node.
     pub surface: Vec<SurfaceSum>,
     pub last_touch: Vec<u64>,
+    /// Impulses of what drives nodes so far of the window [N s], by batch with driven nodes, component and lane.
+    pub reactions: Vec<[[f64; WIDEST]; 3]>,
     /// Contact by line that can touch, of even and of odd steps: one is summed up while the other is written.
     pub contact: [Vec<LineContact>; 2],
 }
@@ -40,6 +42,8 @@ pub struct Sizes {
     /// Lines that can touch the road, and their nodes that can.
     pub surface_lines: usize,
     pub surface_nodes: usize,
+    /// Batches with driven nodes.
+    pub driven: usize,
 }
 
 impl<T: Real> Arrays<T> {
@@ -55,6 +59,7 @@ impl<T: Real> Arrays<T> {
             sums: vec![LineSums::default(); sizes.lines],
             surface: vec![SurfaceSum::default(); sizes.surface_nodes],
             last_touch: vec![0; sizes.surface_nodes],
+            reactions: vec![[[0.0; WIDEST]; 3]; sizes.driven],
             contact: [0, 1].map(|_| vec![LineContact::default(); sizes.surface_lines]),
         }
     }
@@ -71,6 +76,7 @@ impl<T: Real> Arrays<T> {
             sums: self.sums.as_mut_ptr(),
             surface: self.surface.as_mut_ptr(),
             last_touch: self.last_touch.as_mut_ptr(),
+            reactions: self.reactions.as_mut_ptr(),
             contact: self.contact.each_mut().map(|c| c.as_mut_ptr()),
             surface_lines: self.contact[0].len(),
             arrays: PhantomData,
@@ -88,7 +94,7 @@ impl<T: Real> Arrays<T> {
 /// | phase | a member, for | reads | writes |
 /// |---|---|---|---|
 /// | early | an item of its share, once | `x`, `v` of the item's lines | slots of the item's group, the item's `viscous`, `loss` and `memory` |
-/// | early | a line of its share, after the item before it in the share | the line's slots | the line's `x`, `v`, `sums`, `contact` of this step, entries of its surface nodes; its slots, to clear them |
+/// | early | a line of its share, after the item before it in the share | the line's slots | the line's `x`, `v`, `sums`, `contact` of this step, `reactions` of its batches, entries of its surface nodes; its slots, to clear them |
 /// | between | any line that moves late | its slots, its `x` | |
 /// | late | a late line of its share | as an early line | as an early line |
 /// | after | all lines (the first member alone) | `contact` of the step before | |
@@ -111,6 +117,7 @@ pub struct Shared<'a, T> {
     sums: *mut LineSums,
     surface: *mut SurfaceSum,
     last_touch: *mut u64,
+    reactions: *mut [[f64; WIDEST]; 3],
     contact: [*mut LineContact; 2],
     surface_lines: usize,
     arrays: PhantomData<&'a mut Arrays<T>>,
@@ -174,6 +181,17 @@ impl<T: Real> Shared<'_, T> {
     pub unsafe fn surface(&self, k: usize) -> (&mut SurfaceSum, &mut u64) {
         // SAFETY: the caller's promise.
         unsafe { (&mut *self.surface.add(k), &mut *self.last_touch.add(k)) }
+    }
+
+    /// Impulses of what drives the nodes of a batch.
+    ///
+    /// # Safety
+    /// The caller steps the batch's line.
+    #[inline(always)]
+    #[allow(clippy::mut_from_ref)] // the contract keeps them apart
+    pub unsafe fn reactions(&self, batch: usize) -> &mut [[f64; WIDEST]; 3] {
+        // SAFETY: the caller's promise.
+        unsafe { &mut *self.reactions.add(batch) }
     }
 
     /// Contact in step number `step` of line `k` of those that can touch.

@@ -3,6 +3,7 @@
 pub mod areas;
 pub mod chains;
 mod classes;
+mod driven;
 mod forces;
 pub mod frame;
 pub mod memory;
@@ -117,11 +118,11 @@ fn meshed(scene: &Scene) -> Result<Mesh> {
             return Err(nodes.error(&file, key, problem, "name a set of some of the nodes".into()));
         }
     }
-    for (k, Hold { nodes, components }) in scene.holds.iter().enumerate() {
+    for (k, Hold { nodes, components, .. }) in scene.holds.iter().enumerate() {
         let unknown = |e: UnknownSet| nodes.unknown(&file, &format!("hold.{k}.nodes"), &e.known);
         mesh = mesh.with_held(&nodes.name, *components).map_err(unknown)?;
     }
-    placement::placed(mesh, scene)
+    placement::placed(driven::driven(mesh, scene)?, scene)
 }
 
 /// Sums of the corner masses by node.

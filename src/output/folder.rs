@@ -9,6 +9,7 @@ use crate::{Error, Result};
 pub const MARKER: &str = ".hexroll";
 pub const HISTORY: &str = "history.csv";
 pub const IMPLICIT: &str = "implicit.csv";
+pub const REACTIONS: &str = "reactions.csv";
 pub const SCENE: &str = "scene.toml";
 pub const PVD: &str = "run.pvd";
 pub const SUMMARY: &str = "summary.json";
@@ -77,7 +78,7 @@ fn is_ours(name: &str) -> bool {
         middle.is_some_and(|k| !k.is_empty() && k.bytes().all(|b| b.is_ascii_digit()))
     };
     let picture = || ["body", "footprint"].iter().any(|p| name.starts_with(p)) && name.ends_with(".png");
-    [HISTORY, IMPLICIT, SCENE, PVD, SUMMARY].contains(&name)
+    [HISTORY, IMPLICIT, REACTIONS, SCENE, PVD, SUMMARY].contains(&name)
         || numbered("snapshot_", ".vtu")
         || numbered("contact_", ".csv")
         || picture()

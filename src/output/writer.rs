@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Summary, contact, folder, pvd, snapshot};
 use crate::model::mesh::Mesh;
-use crate::record::{NewtonRow, Sample, Snapshot};
+use crate::record::{NewtonRow, Reaction, Sample, Snapshot};
 use crate::{Error, Result};
 
 /// The open folder of a run. Everything given to it is on disk when the call returns.
@@ -15,6 +15,8 @@ pub struct RunWriter<'m> {
     history: csv::Writer<File>,
     /// Made when the first implicit increment is.
     implicit: Option<csv::Writer<File>>,
+    /// Made when the first reactions are.
+    reactions: Option<csv::Writer<File>>,
     /// Times [s] and names of the snapshots so far.
     snapshots: Vec<(f64, String)>,
     /// Held, not used: the folder is locked while this lives.
@@ -37,8 +39,15 @@ impl<'m> RunWriter<'m> {
         let mut history = csv::WriterBuilder::new().has_headers(false).from_writer(file);
         history.write_record(header()).map_err(csv_error(&path))?;
         history.flush().map_err(Error::io(&path, "write this file"))?;
-        let writer =
-            RunWriter { dir: dir.into(), mesh, history, implicit: None, snapshots: Vec::new(), _lock };
+        let writer = RunWriter {
+            dir: dir.into(),
+            mesh,
+            history,
+            implicit: None,
+            reactions: None,
+            snapshots: Vec::new(),
+            _lock,
+        };
         writer.write_pvd()?;
         Ok(writer)
     }
@@ -61,6 +70,24 @@ impl<'m> RunWriter<'m> {
         for row in rows {
             writer.serialize(row).map_err(csv_error(&path))?;
         }
+        writer.flush().map_err(Error::io(&path, "write this file"))
+    }
+
+    /// Appends a row of what drives sets of nodes to `reactions.csv`.
+    pub fn reactions(&mut self, sample: &Sample, sets: &[Reaction]) -> Result<()> {
+        let path = self.dir.join(folder::REACTIONS);
+        if self.reactions.is_none() {
+            let file = File::create(&path).map_err(Error::io(&path, "write this file"))?;
+            let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(file);
+            writer.write_record(reaction_header(sets)).map_err(csv_error(&path))?;
+            self.reactions = Some(writer);
+        }
+        let writer = self.reactions.as_mut().expect("just made");
+        let numbers = sets.iter().flat_map(|set| set.components).flatten().flatten();
+        let row = [sample.time_s.to_string(), sample.stage.clone()]
+            .into_iter()
+            .chain(numbers.map(|n| n.to_string()));
+        writer.write_record(row).map_err(csv_error(&path))?;
         writer.flush().map_err(Error::io(&path, "write this file"))
     }
 
@@ -99,6 +126,19 @@ impl<'m> RunWriter<'m> {
 pub fn header() -> Vec<&'static str> {
     let mut names: Vec<_> = Sample::COLUMNS.iter().map(|(name, _)| *name).collect();
     names.insert(1, "stage");
+    names
+}
+
+/// Names of the columns of `reactions.csv`; a set that is there again has a number behind its name.
+fn reaction_header(sets: &[Reaction]) -> Vec<String> {
+    let mut names = vec!["time_s".to_string(), "stage".into()];
+    for (k, set) in sets.iter().enumerate() {
+        let before = sets[..k].iter().filter(|other| other.set == set.set).count();
+        let name = if before == 0 { set.set.clone() } else { format!("{}_{}", set.set, before + 1) };
+        for (d, _) in ["x", "y", "z"].iter().zip(set.components).filter(|(_, c)| c.is_some()) {
+            names.extend([format!("{name}_u{d}_m"), format!("{name}_f{d}_N")]);
+        }
+    }
     names
 }
 

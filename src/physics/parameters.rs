@@ -7,6 +7,8 @@ pub enum Quantity {
     Number,
     /// A modulus or a pressure [Pa].
     Stress,
+    /// One over a modulus [1/Pa].
+    Compressibility,
     /// A speed [m/s].
     Speed,
     /// One over a speed [s/m].
@@ -36,6 +38,20 @@ pub struct Parameter {
     pub default: Option<f64>,
 }
 
+/// Another name under which a scene may give a parameter, in the constants of another convention.
+#[derive(Debug, Clone, Copy)]
+pub struct Alias {
+    /// Key in a scene file.
+    pub key: &'static str,
+    /// Key of the parameter that it stands for.
+    pub parameter: &'static str,
+    /// One line for a reader of the guide.
+    pub doc: &'static str,
+    pub quantity: Quantity,
+    /// The parameter's value from the alias's.
+    pub value: fn(f64) -> f64,
+}
+
 /// What is wrong with the values of some parameters taken together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
@@ -50,6 +66,8 @@ pub trait Parameters: Copy + std::fmt::Debug + PartialEq + Send + Sync + 'static
     /// Name in a scene file; with `_` for `-` the stem of its shader.
     const NAME: &'static str;
     const PARAMETERS: &'static [Parameter];
+    /// Other names of some of them.
+    const ALIASES: &'static [Alias];
 
     /// Values in the order of [`Parameters::PARAMETERS`].
     fn values(&self) -> Vec<f64>;
@@ -73,6 +91,9 @@ pub trait Parameters: Copy + std::fmt::Debug + PartialEq + Send + Sync + 'static
 ///         still "static": Number, Positive;
 ///         /// Slope at high speed [s/m].
 ///         slope "slope": Slowness, NotNegative, or 0.0;
+///     } also {
+///         /// What another program calls the slope's reciprocal.
+///         "d" for "slope": Speed, |d| 1.0 / d;
 ///     }
 /// }
 /// ```
@@ -83,7 +104,9 @@ macro_rules! parameters_of_a_law {
         $(#[$meta:meta])*
         pub struct $type:ident($name:literal, constants $prefix:literal) {
             $($(#[doc = $doc:literal])* $field:ident $key:literal: $quantity:ident, $bound:ident $(, or $default:literal)?;)*
-        }
+        } $(also {
+            $($(#[doc = $alias_doc:literal])* $alias:literal for $of:literal: $alias_quantity:ident, |$given:ident| $value:expr;)*
+        })?
     ) => {
         $(#[$meta])*
         #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,6 +126,16 @@ macro_rules! parameters_of_a_law {
                     default: $crate::parameters_of_a_law!(@default $($default)?),
                 },
             )*];
+
+            const ALIASES: &'static [$crate::parameters::Alias] = &[$($(
+                $crate::parameters::Alias {
+                    key: $alias,
+                    parameter: $of,
+                    doc: concat!($($alias_doc),*).trim_ascii(),
+                    quantity: $crate::parameters::Quantity::$alias_quantity,
+                    value: |$given| $value,
+                },
+            )*)?];
 
             fn values(&self) -> Vec<f64> {
                 vec![$(self.$field),*]

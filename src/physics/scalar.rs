@@ -41,6 +41,11 @@ pub trait Scalar:
     fn ln(self) -> Self;
     /// The smaller of the two; NaN if either is NaN, so that a failure cannot hide.
     fn min(self, other: Self) -> Self;
+    /// The same number without derivatives, of a number that carries some.
+    #[inline(always)]
+    fn fixed(self) -> Self {
+        self
+    }
 
     #[inline(always)]
     fn zero() -> Self {

@@ -7,11 +7,19 @@ use super::observer::Progress;
 use super::state::{Run, State};
 use crate::engine::Window;
 use crate::error::{Error, Result};
-use crate::record::Sample;
+use crate::model::mesh::Driven;
+use crate::record::{Reaction, Sample};
 use crate::scene::Stage;
 
 /// Error of the stored-energy balance, over the largest term, at which a run is ended. Hard impacts leave some per cent.
 pub const GARBAGE: f64 = 0.25;
+
+/// What a set has done in a window of `length` that ends at `time` [s], from its impulse [N s].
+fn reaction(set: &Driven, impulse: &[f64; 3], time: f64, length: f64) -> Reaction {
+    let moved = set.motion.displacement(time);
+    let component = |d: usize| set.components[d].then(|| [moved[d], impulse[d] / length]);
+    Reaction { set: set.motion.nodes.name.clone(), components: [0, 1, 2].map(component) }
+}
 
 impl Run<'_> {
     /// Books a window whose last step was `dt` long, and hands out its row.
@@ -24,6 +32,17 @@ impl Run<'_> {
         let (totals, end) = (&*totals, recorder.end);
         let progress = Progress { stage: &stage.name, time, end, steps: totals.steps, totals };
         self.observer.sample(&row, &progress)?;
+        let sets: Vec<Reaction> = self
+            .model
+            .mesh
+            .driven
+            .iter()
+            .zip(&window.reactions)
+            .map(|(set, i)| reaction(set, i, time, length))
+            .collect();
+        if !sets.is_empty() {
+            self.observer.reactions(&row, &sets)?;
+        }
         Ok(row)
     }
 

@@ -45,7 +45,8 @@ impl Run<'_> {
     /// Whether a quasi-static stage has come to rest.
     fn has_settled(&mut self, stage: &Stage, window: &Window) -> Result<bool> {
         let State { totals, rim, control, settling, .. } = &mut self.state;
-        let moving = (totals.time >= rim.motion.settled_after()).then(|| rim.own_kinetic());
+        let ended = rim.motion.settled_after().max(self.model.mesh.driven_end());
+        let moving = (totals.time >= ended).then(|| rim.own_kinetic());
         settling.at_rest(stage, window, moving, control, self.model, self.engine)
     }
 

@@ -101,14 +101,12 @@ impl<'a> Run<'a> {
     fn implicit_end(&self, stage: &Stage, settings: &Implicit, start: f64) -> f64 {
         let moves = |d: &Drive| matches!(d, Drive::Velocity { to, .. } if *to != 0.0);
         let road_moves = self.scene.friction.is_some() && self.scene.road.is_some_and(|road| road.moves());
-        let settled = self.state.rim.motion.settled_after();
+        let settled = self.state.rim.motion.settled_after().max(self.model.mesh.driven_end());
         match settings.scheme {
-            ImplicitScheme::Static { .. } if !road_moves && !stage.rim.drives().iter().any(moves) => {
-                if settled > start {
-                    settled.min(start + stage.duration)
-                } else {
-                    start + stage.duration
-                }
+            ImplicitScheme::Static { .. }
+                if !road_moves && settled.is_finite() && !stage.rim.drives().iter().any(moves) =>
+            {
+                if settled > start { settled.min(start + stage.duration) } else { start + stage.duration }
             }
             _ => start + stage.duration,
         }

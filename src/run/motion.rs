@@ -2,13 +2,7 @@
 
 use crate::engine::{StageSetup, Step};
 use crate::physics::rim::Coordinates;
-use crate::scene::{Drive, Stage};
-
-/// Smooth step from 0 to 1 with vanishing first and second derivatives at both ends.
-fn smooth(s: f64) -> f64 {
-    let s = s.clamp(0.0, 1.0);
-    s * s * s * (10.0 + s * (6.0 * s - 15.0))
-}
+use crate::scene::{Drive, Stage, smooth};
 
 /// Integral of [`smooth`] from 0.
 fn smooth_integral(s: f64) -> f64 {

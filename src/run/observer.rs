@@ -2,7 +2,7 @@
 
 use super::totals::Totals;
 use crate::error::Result;
-use crate::record::{NewtonRow, Sample, Snapshot};
+use crate::record::{NewtonRow, Reaction, Sample, Snapshot};
 
 /// Where a simulation stands.
 #[derive(Debug, Clone, Copy)]
@@ -31,6 +31,10 @@ pub trait Observer {
     }
     /// The iterations of an implicit increment, converged or not.
     fn increment(&mut self, _iterations: &[NewtonRow]) -> Result<()> {
+        Ok(())
+    }
+    /// What drives sets of nodes has taken in the window of a `row`, set by set; after [`Observer::sample`].
+    fn reactions(&mut self, _row: &Sample, _sets: &[Reaction]) -> Result<()> {
         Ok(())
     }
     /// Asked about twice a second, or more often: end here, keeping everything. The window on its way is cut short.

@@ -103,6 +103,10 @@ pub fn assembled(
     before: Option<&Critical>,
 ) -> Result<Critical> {
     let mut tangent = Tangent::new(engine, model, x);
+    if tangent.held.iter().all(|held| *held) {
+        // Where every component is prescribed no step is too long.
+        return Ok(Critical { dt: guess, vector: vec![0.0; 3 * x.len()], iterations: 0 });
+    }
     let start = tangent.start(before);
     let mass = tangent.mass.clone();
     let mut dt = guess;

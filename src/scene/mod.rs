@@ -8,6 +8,7 @@ pub mod file;
 mod node_set;
 mod overrides;
 mod reader;
+mod set_motion;
 mod units;
 
 pub use crate::physics::element::{Element, Lumping};
@@ -15,6 +16,7 @@ pub use crate::physics::friction::Friction;
 pub use crate::physics::material::{Law, Relaxation};
 pub use crate::physics::road::Road;
 pub use node_set::NodeSet;
+pub use set_motion::{Path, Pose, SetMotion, Turn, smooth};
 
 use crate::physics::road::Plane;
 use std::path::PathBuf;
@@ -39,6 +41,8 @@ pub struct Scene {
     pub rim: Option<Rim>,
     /// Components of nodes that stay at rest: symmetry planes, plane strain.
     pub holds: Vec<Hold>,
+    /// Components of nodes that follow a motion.
+    pub motions: Vec<SetMotion>,
     pub road: Option<Road>,
     /// `None`: frictionless.
     pub friction: Option<Friction>,
@@ -57,16 +61,45 @@ impl Scene {
             what: format!("{}: {what} in an implicit stage", self.file.display()),
             instead: instead.into(),
         };
-        if !self.holds.is_empty() && self.road.is_some() {
-            return Some(error("[[hold]] beside a [road]", "use explicit stages, or remove one of the two"));
+        let kind = if self.motions.is_empty() { "[[hold]]" } else { "[[motion]]" };
+        let fixed = !self.holds.is_empty() || !self.motions.is_empty();
+        let relaxed = |stage: &Stage| {
+            let Method::Implicit(settings) = stage.method else { return false };
+            matches!(settings.solver, ImplicitSolver::Relaxation { .. })
+        };
+        if fixed && self.road.is_some() {
+            return Some(error(
+                &format!("{kind} beside a [road]"),
+                "use explicit stages, or remove one of the two",
+            ));
         }
         let dynamic = |stage: &Stage| match stage.method {
             Method::Implicit(implicit) => matches!(implicit.scheme, ImplicitScheme::Dynamic { .. }),
             Method::Explicit | Method::QuasiStatic { .. } => false,
         };
-        (!self.body.relaxation.terms.is_empty() && self.stages.iter().any(dynamic)).then(|| {
+        if !self.body.relaxation.terms.is_empty() && self.stages.iter().any(dynamic) {
             let instead = "use explicit stages, or a static one, in which everything has relaxed";
-            error("[body.material.relaxation] with a dynamic scheme", instead)
+            return Some(error("[body.material.relaxation] with a dynamic scheme", instead));
+        }
+        (!self.recorded().is_empty() && self.stages.iter().any(relaxed))
+            .then(|| error("[[motion]] with a relaxation", "write solver = \"active-set\""))
+    }
+
+    /// Sets whose reaction is recorded, at rest or moving: the motions, then the holds that ask for it.
+    pub fn recorded(&self) -> Vec<SetMotion> {
+        let holds = self.holds.iter().filter(|hold| hold.reaction);
+        let at_rest = holds.map(|hold| SetMotion::at_rest(hold.nodes.clone(), hold.components));
+        self.motions.iter().cloned().chain(at_rest).collect()
+    }
+
+    /// What of this scene the GPU engine cannot do, as an error.
+    pub fn beyond_gpu(&self) -> Option<crate::Error> {
+        (!self.recorded().is_empty()).then(|| crate::Error::Unsupported {
+            what: format!(
+                "{}: [[motion]], or a reaction of [[hold]], on the GPU engine",
+                self.file.display()
+            ),
+            instead: "use --engine cpu".into(),
         })
     }
 }
@@ -154,6 +187,8 @@ pub struct Hold {
     pub nodes: NodeSet,
     /// Whether x, y, z are held.
     pub components: [bool; 3],
+    /// Whether what they take is recorded.
+    pub reaction: bool,
 }
 
 /// A part of the simulation with its own rim motion.

@@ -101,6 +101,12 @@ pub(super) static PRESSURE: Dimension = Dimension {
         "Pa" => pascal, "kPa" => kilopascal, "MPa" => megapascal, "GPa" => gigapascal, "bar" => bar,
         "N/mm2" => newton_per_square_millimeter),
 };
+/// One over a modulus.
+pub(super) static COMPRESSIBILITY: Dimension = Dimension {
+    noun: "a compressibility",
+    example: "0.031 1/MPa",
+    units: &[("1/Pa", |v| v), ("1/kPa", |v| 1e-3 * v), ("1/MPa", |v| 1e-6 * v), ("1/GPa", |v| 1e-9 * v)],
+};
 pub(super) static VISCOSITY: Dimension = Dimension {
     noun: "a viscosity",
     example: "20 Pa s",
@@ -119,7 +125,14 @@ pub(super) static RATE: Dimension = Dimension {
     units: units!(Frequency in frequency: "1/s" => hertz, "1/ms" => kilohertz),
 };
 
-static ALL: [&Dimension; 15] = [
+/// Cycles per time.
+pub(super) static FREQUENCY: Dimension = Dimension {
+    noun: "a frequency",
+    example: "100 Hz",
+    units: units!(Frequency in frequency: "Hz" => hertz, "kHz" => kilohertz),
+};
+
+static ALL: [&Dimension; 17] = [
     &LENGTH,
     &TIME,
     &MASS,
@@ -132,8 +145,10 @@ static ALL: [&Dimension; 15] = [
     &INERTIA,
     &DENSITY,
     &PRESSURE,
+    &COMPRESSIBILITY,
     &VISCOSITY,
     &RATE,
+    &FREQUENCY,
     &SLOWNESS,
 ];
 

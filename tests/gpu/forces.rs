@@ -8,7 +8,7 @@ use crate::rig::{self, Who, noise, note, relative, scene};
 use hexroll::gpu::Gpu;
 use hexroll::model::Model;
 use hexroll::model::mesh::Mesh;
-use hexroll::physics::material::Yeoh;
+use hexroll::physics::material::{MooneyRivlin, Ogden, Yeoh};
 use hexroll::physics::parameters::Parameter;
 use hexroll::scene::{Body, Element, Law, MeshSpec, Scene};
 use hexroll_lab::rig::{ELEMENTS, G, by_the_book, laws_of};
@@ -18,11 +18,15 @@ use hexroll_lab::rig::{ELEMENTS, G, by_the_book, laws_of};
 /// and with pairs no less: they save the positions, not the arithmetic.
 const TOLERANCE: f64 = 5e-6;
 
-/// One of each law, with a bulk modulus that does not drown the rest in rounding, and constants of Yeoh's law that show
-/// beside a viscosity.
+/// One of each law, with a bulk modulus that does not drown the rest in rounding, and constants of Yeoh's and Ogden's laws that
+/// show beside a viscosity.
 fn laws() -> Vec<Law> {
     let strong = |law| match law {
         Law::Yeoh(yeoh) => Yeoh { c20: 2.0 * G, c30: 30.0 * G, ..yeoh }.into(),
+        Law::Ogden(ogden) => {
+            let [mu1, mu2, mu3] = [4.0 * G; 3];
+            Ogden { mu1, alpha1: 9.0, mu2, alpha2: 5.0, mu3, alpha3: -7.0, ..ogden }.into()
+        }
         other => other,
     };
     laws_of(G, 10e6).map(strong).collect()
@@ -221,6 +225,24 @@ pub fn every_composition(gpu: &Gpu) {
                 }
             }
         }
+    }
+}
+
+/// Ogden's law with the powers 2 and -2, which a scene would have turned into the Mooney-Rivlin law, has the forces of that law:
+/// they differ by the rounding of W1 and W2, some ten units of 6e-8 of G.
+pub fn ogden_is_mooney_rivlin(gpu: &Gpu) {
+    let case = case();
+    let (g0, g1, g2) = (10e6, 0.7 * G, 0.3 * G);
+    let mooney = Law::MooneyRivlin(MooneyRivlin { g0, g1, g2 });
+    let terms =
+        Ogden { mu1: g1, alpha1: 2.0, mu2: g2, alpha2: -2.0, mu3: 0.0, alpha3: 0.0, bulk_modulus: g0 };
+    for element in [ELEMENTS[0], ELEMENTS[2]] {
+        let [ogden, mooney] = [Law::Ogden(terms), mooney].map(|law| {
+            case.forces(gpu, Who::Gpu, &Body { element, law, viscosity: None, ..case.scene.body.clone() })
+        });
+        let error = relative(&ogden, &mooney);
+        note(|| format!("{element:?}: {error:.1e}"));
+        assert!(error < 1e-6, "{element:?}: {error:.1e}");
     }
 }
 

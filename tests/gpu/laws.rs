@@ -9,7 +9,7 @@ use hexroll::scene::Scene;
 
 /// Laws, and the windows of 40 steps over which they are compared. Friction that falls with pressure makes a sliding block
 /// jump, and jumps amplify rounding without bound: that law is compared while the block is being pressed.
-const LAWS: [(&str, usize); 3] = [
+const LAWS: [(&str, usize); 4] = [
     ("friction={ law = \"viscous\", slope = \"2 s/m\" }", 20),
     (
         "friction={ law = \"stribeck\", static = 0.9, kinetic = 0.4, speed = \"0.1 m/s\", slope = \"0.2 s/m\" }",
@@ -19,6 +19,7 @@ const LAWS: [(&str, usize); 3] = [
         "friction={ law = \"pressure-velocity\", a = 0.2, b = 0.5, pressure = \"0.2 MPa\", c = 0.1, speed = \"1 m/s\" }",
         5,
     ),
+    ("friction={ law = \"lat100\", a = 0.6, b = -0.2, alpha = \"10 1/MPa\", c = 0.2, beta = \"10 s/m\" }", 5),
 ];
 
 fn block(law: &str, windows: usize) -> (Scene, Model, Plan) {
@@ -76,7 +77,7 @@ pub fn friction_and_holds(gpu: &Gpu) {
         works.push(friction(&reference));
     }
     // The laws are not each other: a composition that took the wrong one would be seen.
-    for (i, j) in [(0, 1), (1, 2), (0, 2)] {
+    for (i, j) in [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)] {
         assert!((works[i] / works[j] - 1.0).abs() > 0.02, "{works:?}");
     }
 }

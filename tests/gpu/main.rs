@@ -33,8 +33,9 @@ use std::sync::Arc;
 
 type Check = fn(&Gpu);
 
-const CHECKS: [(&str, Check); 31] = [
+const CHECKS: [(&str, Check); 32] = [
     ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
+    ("ogden_with_powers_two_and_minus_two_is_mooney_rivlin", forces::ogden_is_mooney_rivlin),
     ("forces_as_pairs_are_the_cpus", forces::pairs),
     ("forces_of_every_numbering_are_the_cpus", forces::every_numbering),
     ("small_strains_store_what_the_closed_form_says", small_strains::shear),

@@ -192,7 +192,10 @@ fn holds_gradings_and_friction_laws_are_read() {
         "friction={ law = \"pressure-velocity\", a = 0.5, b = 0.6, pressure = \"0.3 MPa\", c = 0.3, speed = \"0.5 m/s\" }",
     ])
     .unwrap();
-    assert_eq!(scene.holds, [Hold { nodes: "all".into(), components: [false, true, false] }]);
+    assert_eq!(
+        scene.holds,
+        [Hold { nodes: "all".into(), components: [false, true, false], reaction: false }]
+    );
     assert_eq!(scene.body.grading.ratio, [4.0, 0.5, 1.0]);
     near(scene.body.grading.fine_arc, std::f64::consts::FRAC_PI_2);
     let Some(Friction::PressureVelocity(PressureVelocity { a, b, pressure, c, speed })) = scene.friction

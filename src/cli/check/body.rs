@@ -88,6 +88,7 @@ fn constants(law: &Law) -> String {
     let (parameters, values) = law.parameters();
     let one = |(p, value): (&Parameter, f64)| match p.quantity {
         Quantity::Stress => format!("{} = {}", p.key, mpa(value)),
+        Quantity::Compressibility => format!("{} = {value} 1/Pa", p.key),
         Quantity::Number => format!("{} = {value}", p.key),
         Quantity::Speed => format!("{} = {value} m/s", p.key),
         Quantity::Slowness => format!("{} = {value} s/m", p.key),

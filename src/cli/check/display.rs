@@ -14,6 +14,7 @@ impl Display for Check {
             writeln!(f, "  expected: {}", self.expected)?;
         }
         write!(f, "\n{}", self.body)?;
+        write!(f, "\n{}", self.curves)?;
         writeln!(f, "\npieces")?;
         for piece in &self.pieces {
             writeln!(f, "  {:<14} {}", piece.name, piece.detail.as_deref().unwrap_or("-  left out"))?;

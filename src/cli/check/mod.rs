@@ -1,6 +1,8 @@
-//! `hexroll check`: what will be modelled, with which programs, at what cost. Nothing is simulated, and nothing written but programs.
+//! `hexroll check`: what will be modelled, with which programs, at what cost. Nothing is simulated, and nothing written but
+//! programs and the law's curves.
 
 mod body;
+mod curves;
 mod display;
 mod memory;
 mod programs;
@@ -16,6 +18,7 @@ use super::scene::SceneArgs;
 use super::terminal;
 use super::warnings;
 use body::Body;
+use curves::Curves;
 use hexroll::engine::Engine;
 use hexroll::gpu::adapters;
 use hexroll::model::Model;
@@ -27,13 +30,14 @@ use stages::StagePlan;
 
 pub const HELP: &str = "\
 Reads and meshes the scene, composes its GPU programs, and times a few steps for the estimate; simulates nothing, and
-writes nothing but, if asked to, the programs.
+writes nothing but, if asked to, the programs and the law's curves.
 
 Examples:
   hexroll check scenes/lat100_straight.toml
   hexroll check scenes/lat100_straight.toml --set body.mesh.elements='[132, 12, 15]'
   hexroll check scenes/lat100_straight.toml --json | jq .gpu.programs
-  hexroll check scenes/lat100_straight.toml --programs wgsl";
+  hexroll check scenes/lat100_straight.toml --programs wgsl
+  hexroll check scenes/lat100_straight.toml --curves law";
 
 #[derive(Debug, Args)]
 pub struct CheckArgs {
@@ -45,6 +49,9 @@ pub struct CheckArgs {
     /// Write the WGSL of every GPU program to this folder
     #[arg(long, value_name = "DIR")]
     programs: Option<PathBuf>,
+    /// Write the law's stress against stretch to this folder: curves.csv and curves.png
+    #[arg(long, value_name = "DIR")]
+    curves: Option<PathBuf>,
 }
 
 /// Everything the command has to say.
@@ -55,6 +62,8 @@ struct Check {
     title: String,
     expected: String,
     body: Body,
+    /// The law in tension, and where it is stable.
+    curves: Curves,
     /// Optional parts of the physics.
     pieces: Vec<Piece>,
     stages: Vec<StagePlan>,
@@ -92,12 +101,15 @@ pub fn execute(args: &CheckArgs) -> Result<()> {
     let model = Model::new(&scene)?;
     let steps = Steps::of(&scene, &model)?;
     let (estimates, notes) = estimates(&scene, &model, &steps);
+    let curves = Curves::of(&scene.body.law);
+    let instability: Vec<_> = curves.warnings(scene.body.law.name()).collect();
     let check = Check {
         scene_file: scene.file.display().to_string(),
         scene_hash: scene.hash.clone(),
         title: scene.title.clone(),
         expected: scene.expected.clone(),
         body: Body::of(&scene, &model),
+        curves,
         pieces: stages::pieces(&scene, &model.mesh.sets),
         stages: stages::plans(&scene, &steps),
         cpu: CpuMemory::of(&scene),
@@ -105,10 +117,13 @@ pub fn execute(args: &CheckArgs) -> Result<()> {
         steps,
         estimates,
         outputs: stages::outputs(&scene),
-        warnings: warnings::of(&scene, &model).into_iter().chain(notes).collect(),
+        warnings: warnings::of(&scene, &model).into_iter().chain(instability).chain(notes).collect(),
     };
     if let Some(folder) = &args.programs {
         check.gpu.write_sources(folder)?;
+    }
+    if let Some(folder) = &args.curves {
+        curves::write(&scene.body.law, folder)?;
     }
     if args.json { terminal::print_json(&check) } else { terminal::print(&check.to_string()) }
 }

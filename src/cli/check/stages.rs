@@ -96,6 +96,7 @@ pub fn pieces(scene: &Scene, sets: &NodeSets) -> Vec<Piece> {
         piece("mass damping", (!damped.is_empty()).then(|| format!("in stage {}", damped.join(", ")))),
         piece("gravity", (scene.gravity != [0.0; 3]).then(|| format!("{:?} m/s2", scene.gravity))),
         piece("held components", (!scene.holds.is_empty()).then(|| holds(scene, sets))),
+        piece("moved components", (!scene.motions.is_empty()).then(|| motions(scene, sets))),
         piece("road", scene.road.map(|road| road.description())),
         piece("friction", scene.friction.map(|law| law.formula())),
         piece(
@@ -133,6 +134,16 @@ fn holds(scene: &Scene, sets: &NodeSets) -> String {
     scene.holds.iter().map(hold).collect::<Vec<_>>().join(", ")
 }
 
+fn motions(scene: &Scene, sets: &NodeSets) -> String {
+    let motion = |m: &hexroll::scene::SetMotion| {
+        let moved =
+            ['x', 'y', 'z'].iter().zip(&m.components).filter_map(|(c, path)| path.as_ref().map(|_| *c));
+        let turned = if m.turn.is_some() { ", turned," } else { "" };
+        format!("{}{turned} of {}", moved.collect::<String>(), sets.meaning(&m.nodes.name))
+    };
+    scene.motions.iter().map(motion).collect::<Vec<_>>().join("; ")
+}
+
 /// What a run would write.
 pub fn outputs(scene: &Scene) -> Vec<String> {
     let snapshots = match scene.output.snapshots {
@@ -150,7 +161,12 @@ pub fn outputs(scene: &Scene) -> Vec<String> {
     } else {
         format!("pictures of every snapshot: {}", pictures.join(", "))
     };
-    vec![format!("a row of history every {}", si(scene.output.sample, "s")), snapshots, pictures]
+    let mut all =
+        vec![format!("a row of history every {}", si(scene.output.sample, "s")), snapshots, pictures];
+    if !scene.recorded().is_empty() {
+        all.push("displacements and reactions of moved and recorded node sets: reactions.csv".into());
+    }
+    all
 }
 
 fn field_name(field: Field) -> &'static str {

@@ -28,7 +28,7 @@ mod slots;
 
 pub use schedule::{Share, Task};
 
-use crate::kernels::{Item, Line, Sizes};
+use crate::kernels::{DrivenPart, Item, Line, Sizes};
 use crate::model::Model;
 use crate::model::chains::chains;
 use groups::Groups;
@@ -57,6 +57,8 @@ pub struct Plan {
     pub surface_lines: usize,
     /// Lanes of batches of nodes with rim or surface nodes.
     pub boundary: usize,
+    /// Batches of nodes with driven ones: their parts.
+    pub driven: Vec<Vec<DrivenPart>>,
 }
 
 impl Plan {
@@ -70,6 +72,7 @@ impl Plan {
             lines: self.lines.len(),
             surface_lines: self.surface_lines,
             surface_nodes,
+            driven: self.driven.len(),
         }
     }
 
@@ -85,11 +88,11 @@ impl Plan {
         let mut shapes = Shapes::new(&model.class_of);
         let items = items(&lines, hexes, groups, &slots, &mut shapes, width);
         let place = (0..model.node_count() as u32).map(|n| lines.place(n)).collect();
-        let Roles { of_lines: roles, surface_lines, boundary } = roles;
+        let Roles { of_lines: roles, surface_lines, boundary, driven } = roles;
         let (places, forces) = (lines.places, slots.length);
         let lines = placed_lines(lines, roles, slots);
         let shapes = shapes.into_entries();
-        Plan { items, lines, shares, shapes, place, places, forces, surface_lines, boundary }
+        Plan { items, lines, shares, shapes, place, places, forces, surface_lines, boundary, driven }
     }
 }
 

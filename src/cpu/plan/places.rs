@@ -96,6 +96,7 @@ pub fn placed_lines(lines: Lines, roles: Vec<LineRoles>, slots: Slots) -> Vec<Li
         length: line.length,
         loose,
         has_rim: roles.has_rim,
+        driven: roles.driven,
         plain: roles.plain,
         surface: roles.surface,
     })

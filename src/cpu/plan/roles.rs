@@ -1,8 +1,8 @@
 //! What the nodes of each line are: held by the rim, near the road, held in a component.
 
 use super::lines::{Lines, NodeLine};
-use crate::kernels::NodeBatch;
-use crate::model::mesh::Mesh;
+use crate::kernels::{DrivenPart, NodeBatch};
+use crate::model::mesh::{Driven, Mesh};
 
 /// Bits of a node; those of held components follow.
 const RIM: u8 = 1;
@@ -14,6 +14,7 @@ const HELD: u8 = 4;
 pub struct LineRoles {
     pub batches: Vec<NodeBatch>,
     pub has_rim: bool,
+    pub driven: bool,
     /// Whether all of its nodes are free of rim and holds.
     pub plain: bool,
     /// Its number among the lines that can touch the road.
@@ -28,19 +29,28 @@ pub struct Roles {
     pub surface_lines: usize,
     /// Lanes of batches with rim or surface nodes.
     pub boundary: usize,
+    /// Batches with driven nodes: their parts.
+    pub driven: Vec<Vec<DrivenPart>>,
 }
 
 impl Roles {
     /// Roles of a mesh's nodes in batches of `width`; `road`: its surface nodes can touch.
     pub fn new(lines: &Lines, mesh: &Mesh, road: bool, width: usize) -> Roles {
         let of_nodes = bits(mesh, road);
-        let (mut surface_lines, mut boundary) = (0, 0);
+        let sets: Vec<Vec<bool>> =
+            mesh.driven.iter().map(|set| members(&set.nodes, mesh.nodes.len())).collect();
+        let (mut surface_lines, mut boundary, mut driven) = (0, 0, Vec::new());
         let mut of_line = |line: &NodeLine| {
             let batches: Vec<NodeBatch> = line
                 .nodes
                 .chunks(width)
                 .map(|nodes| {
-                    let batch = batch(nodes, &of_nodes, boundary);
+                    let mut batch = batch(nodes, &of_nodes, boundary);
+                    let parts = parts(nodes, mesh, &sets);
+                    if !parts.is_empty() {
+                        driven.push(parts);
+                        batch.driven = driven.len() as u32;
+                    }
                     boundary += if batch.rim | batch.surface != 0 { width } else { 0 };
                     batch
                 })
@@ -49,13 +59,14 @@ impl Roles {
             surface_lines += usize::from(surface.is_some());
             LineRoles {
                 has_rim: batches.iter().any(|b| b.rim != 0),
+                driven: batches.iter().any(|b| b.driven != 0),
                 plain: batches.iter().all(|b| b.rim == 0 && b.held == [0; 3]),
                 surface,
                 batches,
             }
         };
         let of_lines = lines.lines.iter().map(&mut of_line).collect();
-        Roles { of_lines, surface_lines, boundary }
+        Roles { of_lines, surface_lines, boundary, driven }
     }
 }
 
@@ -82,5 +93,24 @@ fn batch(nodes: &[u32], of_nodes: &[u8], boundary: usize) -> NodeBatch {
         surface: lanes(SURFACE),
         held: [0, 1, 2].map(|d| lanes(HELD << d)),
         boundary: boundary as u32,
+        driven: 0,
     }
+}
+
+/// Whether each of `count` nodes is one of a set's.
+fn members(nodes: &[u32], count: usize) -> Vec<bool> {
+    let mut is_one = vec![false; count];
+    nodes.iter().for_each(|&n| is_one[n as usize] = true);
+    is_one
+}
+
+/// What the driven sets have of a batch.
+fn parts(nodes: &[u32], mesh: &Mesh, sets: &[Vec<bool>]) -> Vec<DrivenPart> {
+    let part = |(number, (set, driven)): (usize, (&Vec<bool>, &Driven))| {
+        let of_set = nodes.iter().enumerate().filter(|(_, n)| set[**n as usize]);
+        let lanes = of_set.fold(0, |mask, (lane, _)| mask | 1 << lane);
+        let lanes = driven.components.map(|prescribed| if prescribed { lanes } else { 0 });
+        (lanes != [0; 3]).then_some(DrivenPart { set: number as u32, lanes })
+    };
+    sets.iter().zip(&mesh.driven).enumerate().filter_map(part).collect()
 }

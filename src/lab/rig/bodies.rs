@@ -68,6 +68,7 @@ pub fn scene(mesh: MeshSpec) -> Scene {
         body: body(mesh),
         rim: None,
         holds: Vec::new(),
+        motions: Vec::new(),
         road: None,
         friction: None,
         gravity: [0.0; 3],
@@ -149,7 +150,8 @@ pub fn rolling(velocity: [f64; 2], spin: f64, duration: f64) -> Stage {
 
 /// Holds components of a node set, named as in `"xz"`.
 pub fn hold(nodes: &str, components: &str) -> Hold {
-    Hold { nodes: nodes.into(), components: ['x', 'y', 'z'].map(|c| components.contains(c)) }
+    let components = ['x', 'y', 'z'].map(|c| components.contains(c));
+    Hold { nodes: nodes.into(), components, reaction: false }
 }
 
 /// Young's modulus [Pa] and Poisson's ratio of a law at small strain.

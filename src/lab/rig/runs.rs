@@ -4,7 +4,7 @@ use hexroll::Result;
 use hexroll::cpu::{self, Precision};
 use hexroll::engine::{Engine, StageSetup, Step, Window};
 use hexroll::model::Model;
-use hexroll::record::{NewtonRow, Sample, Snapshot};
+use hexroll::record::{NewtonRow, Reaction, Sample, Snapshot};
 use hexroll::run::{self, Observer, Progress, Totals};
 use hexroll::scene::Scene;
 
@@ -14,6 +14,7 @@ use super::references;
 #[derive(Debug, Default)]
 pub struct Recorder {
     pub samples: Vec<Sample>,
+    pub reactions: Vec<Vec<Reaction>>,
     pub snapshots: Vec<Snapshot>,
     pub iterations: Vec<NewtonRow>,
     pub notes: Vec<String>,
@@ -22,6 +23,10 @@ pub struct Recorder {
 impl Observer for Recorder {
     fn sample(&mut self, sample: &Sample, _: &Progress) -> Result<()> {
         self.samples.push(sample.clone());
+        Ok(())
+    }
+    fn reactions(&mut self, _: &Sample, sets: &[Reaction]) -> Result<()> {
+        self.reactions.push(sets.to_vec());
         Ok(())
     }
     fn snapshot(&mut self, snapshot: &Snapshot, _: &str) -> Result<()> {
@@ -42,6 +47,8 @@ impl Observer for Recorder {
 pub struct Outcome {
     pub model: Model,
     pub samples: Vec<Sample>,
+    /// By window; empty without driven sets.
+    pub reactions: Vec<Vec<Reaction>>,
     pub snapshots: Vec<Snapshot>,
     pub totals: Totals,
 }
@@ -114,7 +121,8 @@ pub fn simulate_with(scene: &Scene, model: Model, precision: Precision, threads:
     let mut engine = cpu::engine(&model, scene, precision, threads)?;
     let mut recorder = Recorder::default();
     let totals = simulate_on(scene, &model, &mut *engine, &mut recorder)?;
-    Ok(Outcome { samples: recorder.samples, snapshots: recorder.snapshots, totals, model })
+    let reactions = recorder.reactions;
+    Ok(Outcome { samples: recorder.samples, reactions, snapshots: recorder.snapshots, totals, model })
 }
 
 /// The same on an engine that the caller made, into a recorder that keeps what came before a failure.

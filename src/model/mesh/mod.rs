@@ -5,12 +5,14 @@
 //! So a mesh that is read from a file, or renumbered, answers as one that was generated does.
 
 mod boundary;
+mod driven;
 mod generate;
 mod lattice;
 mod ring;
 mod sets;
 
 pub use boundary::boundary;
+pub use driven::Driven;
 pub use lattice::Lattice;
 pub use ring::Ring;
 pub use sets::{NamedNodes, NodeSets, UnknownSet};
@@ -38,6 +40,8 @@ pub struct Mesh {
     pub surface: Vec<u32>,
     /// Held components of each node, bit d for component d; empty where nothing is held. Rim nodes have none.
     pub held: Vec<u8>,
+    /// Sets whose components follow a motion (those are held too), and sets at rest whose reaction is recorded.
+    pub driven: Vec<Driven>,
 }
 
 impl Mesh {
@@ -87,6 +91,11 @@ impl Mesh {
             None if name == sets::ALL => Ok((0..self.nodes.len() as u32).collect()),
             None => Err(UnknownSet { name: name.into(), known: self.sets.names() }),
         }
+    }
+
+    /// When every driven set has come to rest [s]; infinite where one never does.
+    pub fn driven_end(&self) -> f64 {
+        self.driven.iter().map(|set| set.motion.end()).fold(0.0, f64::max)
     }
 
     /// The lattice that nodes and elements are numbered by, if there is one.

@@ -137,7 +137,7 @@ pub(super) fn points<
     // With its signs known a point's lines are registers, or places on the stack, and no addresses to be computed.
     // Unrolled code takes long to compile: `full` on elements of any shape goes without, and points that remember, whose time goes
     // to memory.
-    if S::UNROLLED && (EXTRUDED || !POINTWISE) && !V::REMEMBERS {
+    if S::UNROLLED && L::UNROLLED && (EXTRUDED || !POINTWISE) && !V::REMEMBERS {
         point!(0, 0, 0);
         point!(1, 0, 0);
         point!(0, 1, 0);

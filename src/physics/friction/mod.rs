@@ -1,12 +1,14 @@
 //! Friction laws: how large the tangential force of a sliding node is, as a share of its normal force.
 
 mod coulomb;
+mod lat100;
 mod pressure_velocity;
 mod static_kinetic;
 mod stribeck;
 mod viscous;
 
 pub use coulomb::Coulomb;
+pub use lat100::Lat100;
 pub use pressure_velocity::PressureVelocity;
 pub use static_kinetic::StaticKinetic;
 pub use stribeck::Stribeck;
@@ -18,7 +20,7 @@ use super::scalar::Real;
 /// The laws there are: a line for each.
 macro_rules! for_every_law {
     ($macro:ident) => {
-        $macro! { Coulomb, Viscous, Stribeck, PressureVelocity, StaticKinetic }
+        $macro! { Coulomb, Viscous, Stribeck, PressureVelocity, StaticKinetic, Lat100 }
     };
 }
 

@@ -9,29 +9,35 @@
 //!
 //! so every isotropic law is three numbers at a point: [`Derivatives`].
 
+mod arruda_boyce;
+mod hencky;
 mod mooney_rivlin;
 mod mooney_rivlin_eq4;
 mod neo_hookean;
+mod ogden;
 mod relaxation;
 mod viscosity;
 mod yeoh;
 
+pub use arruda_boyce::ArrudaBoyce;
 pub use mooney_rivlin::MooneyRivlin;
 pub use mooney_rivlin_eq4::MooneyRivlinEq4;
 pub use neo_hookean::NeoHookean;
+pub use ogden::Ogden;
 pub use relaxation::{
     Deformed, Fading, Forgetful, Memory, Overstress, Pace, Relaxation, Term, change, overstress,
 };
 pub use viscosity::{Inviscid, KelvinVoigt, Viscoelastic, Viscosity, velocity_gradient};
 pub use yeoh::Yeoh;
 
-use super::parameters::{Fault, Parameter, Parameters};
+use super::parameters::{Alias, Fault, Parameter, Parameters};
 use super::scalar::Scalar;
 
-/// The laws there are: a line for each.
+/// The laws there are. Those of the first list have kernels of their own; the others share one that asks at every point which law it
+/// is, for elements of any shape: kernels take long to compile.
 macro_rules! for_every_law {
     ($macro:ident) => {
-        $macro! { MooneyRivlin, NeoHookean, MooneyRivlinEq4, Yeoh }
+        $macro! { [MooneyRivlin, NeoHookean, MooneyRivlinEq4, Yeoh] [ArrudaBoyce, Ogden] }
     };
 }
 
@@ -50,6 +56,9 @@ pub struct Derivatives<S> {
 pub trait Hyperelastic: Copy + std::fmt::Debug + Send + Sync + 'static {
     /// Whether the energy depends on I2 (its code is left out otherwise).
     const HAS_I2: bool;
+    /// Whether loops over points may be unrolled in lanes: not where a law has so much code that copies of it take long to
+    /// compile and gain nothing.
+    const UNROLLED: bool = true;
 
     /// Pointwise energy per reference volume [Pa].
     fn psi<S: Scalar>(&self, i1: S, i2: S, j: S) -> S;
@@ -78,6 +87,11 @@ pub trait Moduli: Hyperelastic + Parameters {
     /// Which parameters to look at where a modulus is not positive: for the shear, and for the bulk modulus.
     const KEYS_OF_MODULI: [&'static str; 2];
 
+    /// What is wrong with the parameters taken together, beside moduli that are not positive.
+    fn fault(&self) -> Option<Fault> {
+        None
+    }
+
     /// The cheapest law with the same energy.
     fn simplified(self) -> Law
     where
@@ -101,6 +115,8 @@ pub struct Kind {
     /// Name in a scene file.
     pub name: &'static str,
     pub parameters: &'static [Parameter],
+    /// Other names of these parameters.
+    pub aliases: &'static [Alias],
     /// The law from values in the order of the parameters; moduli are positive.
     pub from_values: fn(&[f64]) -> Result<Law, Fault>,
     /// The same from shear and bulk modulus [Pa].
@@ -110,13 +126,19 @@ pub struct Kind {
 }
 
 macro_rules! laws {
-    ($($law:ident),*) => {
+    ([$($fast:ident),*] [$($law:ident),*]) => {
         /// Any hyperelastic law.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum Law {
+            $($fast($fast),)*
             $($law($law)),*
         }
 
+        $(impl From<$fast> for Law {
+            fn from(law: $fast) -> Law {
+                Law::$fast(law)
+            }
+        })*
         $(impl From<$law> for Law {
             fn from(law: $law) -> Law {
                 Law::$law(law)
@@ -125,13 +147,23 @@ macro_rules! laws {
 
         impl Law {
             /// Every kind of law, the default of scenes first.
-            pub const KINDS: &'static [Kind] = &[$(kind::<$law>()),*];
+            pub const KINDS: &'static [Kind] = &[$(kind::<$fast>(),)* $(kind::<$law>()),*];
 
             /// Calls `work` with the law's own type: the one place where an enum becomes a type.
             #[inline(always)]
             pub fn visit<W: WithLaw>(&self, work: W) -> W::Output {
                 match self {
+                    $(Law::$fast(law) => work.with(*law),)*
                     $(Law::$law(law) => work.with(*law)),*
+                }
+            }
+
+            /// [`Law::visit`] of the laws that have routines of their own; the others give the work back.
+            #[inline(always)]
+            pub fn visit_own<W: WithLaw>(&self, work: W) -> Result<W::Output, W> {
+                match self {
+                    $(Law::$fast(law) => Ok(work.with(*law)),)*
+                    $(Law::$law(_))|* => Err(work),
                 }
             }
         }
@@ -139,10 +171,12 @@ macro_rules! laws {
         /// Code for all laws, which asks at every point which one it is: for work that is not done in every step.
         impl Hyperelastic for Law {
             const HAS_I2: bool = true;
+            const UNROLLED: bool = false;
 
             #[inline(always)]
             fn psi<S: Scalar>(&self, i1: S, i2: S, j: S) -> S {
                 match self {
+                    $(Law::$fast(law) => law.psi(i1, i2, j),)*
                     $(Law::$law(law) => law.psi(i1, i2, j)),*
                 }
             }
@@ -150,6 +184,7 @@ macro_rules! laws {
             #[inline(always)]
             fn derivatives<S: Scalar>(&self, i1: S, i2: S, j: S) -> Derivatives<S> {
                 match self {
+                    $(Law::$fast(law) => law.derivatives(i1, i2, j),)*
                     $(Law::$law(law) => law.derivatives(i1, i2, j)),*
                 }
             }
@@ -157,6 +192,7 @@ macro_rules! laws {
             #[inline(always)]
             fn U<S: Scalar>(&self, j: S) -> S {
                 match self {
+                    $(Law::$fast(law) => law.U(j),)*
                     $(Law::$law(law) => law.U(j)),*
                 }
             }
@@ -164,6 +200,7 @@ macro_rules! laws {
             #[inline(always)]
             fn dU<S: Scalar>(&self, j: S) -> S {
                 match self {
+                    $(Law::$fast(law) => law.dU(j),)*
                     $(Law::$law(law) => law.dU(j)),*
                 }
             }
@@ -171,6 +208,7 @@ macro_rules! laws {
             #[inline(always)]
             fn ddU<S: Scalar>(&self, j: S) -> S {
                 match self {
+                    $(Law::$fast(law) => law.ddU(j),)*
                     $(Law::$law(law) => law.ddU(j)),*
                 }
             }
@@ -186,17 +224,21 @@ where
     Kind {
         name: L::NAME,
         parameters: L::PARAMETERS,
+        aliases: L::ALIASES,
         from_values: |values| checked(L::from_values(values)),
         from_moduli: |shear, bulk| checked(L::from_moduli(shear, bulk)),
         example: |shear, bulk| L::example(shear, bulk).into(),
     }
 }
 
-/// A law whose moduli are positive.
+/// A law without faults whose moduli are positive.
 fn checked<L: Moduli>(law: L) -> Result<Law, Fault>
 where
     Law: From<L>,
 {
+    if let Some(fault) = law.fault() {
+        return Err(fault);
+    }
     let moduli = [("shear", law.shear_modulus()), ("bulk", law.bulk_modulus())];
     for ((name, modulus), key) in moduli.into_iter().zip(L::KEYS_OF_MODULI) {
         if modulus <= 0.0 {

@@ -13,6 +13,15 @@ parameters! {
         g1 "g1": Stress, Any;
         /// What I2 has of the shear modulus, 2 C01.
         g2 "g2": Stress, Any, or 0.0;
+    } also {
+        /// g1 / 2.
+        "c10" for "g1": Stress, |c10| 2.0 * c10;
+        /// g2 / 2.
+        "c01" for "g2": Stress, |c01| 2.0 * c01;
+        /// 2 / kappa.
+        "d1" for "g0": Compressibility, |d1| 2.0 / d1;
+        /// kappa.
+        "bulk_modulus" for "g0": Stress, |kappa| kappa;
     }
 }
 

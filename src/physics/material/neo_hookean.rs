@@ -11,6 +11,13 @@ parameters! {
         g0 "g0": Stress, Any;
         /// Shear modulus.
         g1 "g1": Stress, Any;
+    } also {
+        /// G / 2.
+        "c10" for "g1": Stress, |c10| 2.0 * c10;
+        /// 2 / kappa.
+        "d1" for "g0": Compressibility, |d1| 2.0 / d1;
+        /// kappa.
+        "bulk_modulus" for "g0": Stress, |kappa| kappa;
     }
 }
 

@@ -15,6 +15,9 @@ parameters! {
         c30 "c30": Stress, Any, or 0.0;
         /// kappa.
         bulk_modulus "bulk_modulus": Stress, Positive;
+    } also {
+        /// 2 / kappa.
+        "d1" for "bulk_modulus": Compressibility, |d1| 2.0 / d1;
     }
 }
 

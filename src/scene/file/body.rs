@@ -1,15 +1,12 @@
 //! `[body]`: mesh, material, element.
 
-use super::parameters;
-use super::relaxation::relaxation;
+use super::material::material;
 use crate::error::Result;
-use crate::physics::material::Kind;
-use crate::physics::parameters::Parameter;
 use crate::scene::reader::{Bound, Item, Later, Table};
-use crate::scene::units::{ANGLE, ANGULAR_VELOCITY, DENSITY, LENGTH, PRESSURE, VELOCITY, VISCOSITY};
+use crate::scene::units::{ANGLE, ANGULAR_VELOCITY, DENSITY, LENGTH, VELOCITY};
 use crate::scene::{
-    Body, Drive, Element, Grading, Implicit, ImplicitScheme, InitialVelocity, Law, Lumping, MeshSpec, Method,
-    Relaxation, Stage,
+    Body, Drive, Element, Grading, Implicit, ImplicitScheme, InitialVelocity, Lumping, MeshSpec, Method,
+    Stage,
 };
 
 const HOURGLASS: f64 = 0.15;
@@ -194,62 +191,4 @@ fn elements(table: &Table, example: &str, first: usize) -> Result<[usize; 3]> {
             format!("their product must not exceed {} million", u32::MAX / 8 / 1_000_000),
         )),
     }
-}
-
-const MODULI: [&str; 2] = ["shear_modulus", "bulk_modulus"];
-
-/// Law of slow deformation, viscosity and Prony series.
-fn material(table: &Table) -> Result<(Law, Option<f64>, Relaxation)> {
-    let mut keys = [&["law", "viscosity", "relaxation"], &MODULI[..]].concat();
-    keys.extend(Law::KINDS.iter().flat_map(|kind| kind.parameters).map(|p| p.key));
-    keys.dedup();
-    table.only(&keys, &[])?;
-    let names: Vec<_> = Law::KINDS.iter().map(|kind| (kind.name, kind)).collect();
-    let kind = table.get("law").map_or(Ok(&Law::KINDS[0]), |item| item.choice(&names, &[]))?;
-    refuse_foreign(table, kind)?;
-    let constant = |p: &&Parameter| !MODULI.contains(&p.key) && table.get(p.key).is_some();
-    let law = match kind.parameters.iter().find(constant) {
-        Some(given) => constants(table, kind, given)?,
-        None => moduli(table, kind)?,
-    };
-    let eta = table.quantity_or("viscosity", 0.0, &VISCOSITY, Bound::NotNegative)?;
-    let (law, relaxation) = match table.get("relaxation") {
-        Some(item) => relaxation(&item, law)?,
-        None => (law, Relaxation::default()),
-    };
-    Ok((law, (eta > 0.0).then_some(eta), relaxation))
-}
-
-/// Refuses what only other laws have.
-fn refuse_foreign(table: &Table, kind: &Kind) -> Result<()> {
-    let has = |kind: &Kind, key: &str| MODULI.contains(&key) || kind.parameters.iter().any(|p| p.key == key);
-    for other in Law::KINDS {
-        for key in other.parameters.iter().map(|p| p.key).filter(|key| !has(kind, key)) {
-            if let Some(item) = table.get(key) {
-                return Err(item.error(
-                    format!("{} has no {key}", kind.name),
-                    format!("remove the key, or write law = {:?}", other.name),
-                ));
-            }
-        }
-    }
-    Ok(())
-}
-
-/// The law from shear and bulk modulus.
-fn moduli(table: &Table, kind: &Kind) -> Result<Law> {
-    let [shear, bulk] = MODULI.map(|key| table.quantity(key, &PRESSURE, Bound::Positive));
-    (kind.from_moduli)(shear?, bulk?).map_err(|fault| parameters::error(table, fault))
-}
-
-/// The law from its own constants, of which `given` is one.
-fn constants(table: &Table, kind: &Kind, given: &Parameter) -> Result<Law> {
-    let own = |key: &str| kind.parameters.iter().any(|p| p.key == key);
-    if let Some(item) = MODULI.iter().filter(|key| !own(key)).find_map(|key| table.get(key)) {
-        let all: Vec<_> = kind.parameters.iter().map(|p| p.key).collect();
-        let remedy = format!("write either the moduli (shear_modulus, bulk_modulus) or {}", all.join(", "));
-        return Err(item.error(format!("given besides {}", given.key), remedy));
-    }
-    (kind.from_values)(&parameters::read(table, kind.parameters)?)
-        .map_err(|fault| parameters::error(table, fault))
 }

@@ -5,10 +5,12 @@
 
 mod body;
 mod implicit;
+mod material;
 mod output;
 mod parameters;
 mod relaxation;
 mod rim_motion;
+mod set_motion;
 mod stage;
 mod world;
 
@@ -22,7 +24,7 @@ use super::units::ACCELERATION;
 use super::{Scene, overrides};
 use crate::error::{Error, Result};
 
-const SECTIONS: [&str; 12] = [
+const SECTIONS: [&str; 13] = [
     "title",
     "source",
     "expected",
@@ -30,6 +32,7 @@ const SECTIONS: [&str; 12] = [
     "body",
     "rim",
     "hold",
+    "motion",
     "road",
     "friction",
     "time_step",
@@ -114,9 +117,18 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
         }
         None => Vec::new(),
     };
+    let motions = match table.get("motion") {
+        Some(item) => {
+            let motions = set_motion::motions(&item)?;
+            world::check_motions(&item, &motions, road.as_ref())?;
+            motions
+        }
+        None => Vec::new(),
+    };
     let friction = table.get("friction").map(|item| world::friction(&item, road.is_some())).transpose()?;
     let section = table.section("stage", "[[stage]]")?;
     let stages = stage::stages(&section, rim.is_some(), road.as_ref(), body.offset)?;
+    stage::check_motions(&section, &stages, &motions)?;
     body::check_start(&table.section("body", "[body]")?, &body, &stages[0])?;
     let output = output::output(&table.section("output", "[output]")?, &stages, road.is_some())?;
     let implicit = stages.iter().any(|s| matches!(s.method, super::Method::Implicit(_)));
@@ -129,6 +141,7 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
         body,
         rim,
         holds,
+        motions,
         road,
         friction: friction.flatten(),
         gravity,

@@ -3,7 +3,7 @@
 use crate::error::Result;
 use crate::scene::reader::{Bound, Item, Later, Table};
 use crate::scene::units::{RATE, TIME};
-use crate::scene::{InitialVelocity, Method, Road, Stage};
+use crate::scene::{InitialVelocity, Method, Road, SetMotion, Stage};
 
 use super::implicit;
 use super::rim_motion::{Limits, rim_motion};
@@ -30,6 +30,18 @@ pub(super) fn stages(item: &Item, has_rim: bool, road: Option<&Road>, start: [f6
         stages.push(stage);
     }
     Ok(stages)
+}
+
+/// A stage that waits for rest needs motions that come to rest.
+pub(super) fn check_motions(item: &Item, stages: &[Stage], motions: &[SetMotion]) -> Result<()> {
+    let moves_on = motions.iter().any(|motion| motion.end() == f64::INFINITY);
+    for (stage, entry) in stages.iter().zip(item.entries()?) {
+        if moves_on && stage.is_quasi_static() {
+            let problem = "a [[motion]] that never comes to rest keeps this stage from settling";
+            return Err(entry.error(problem, "write method = \"explicit\", or a motion that ends"));
+        }
+    }
+    Ok(())
 }
 
 /// Index of the steer angle among the rim's components.

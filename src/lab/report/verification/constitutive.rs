@@ -9,7 +9,7 @@ use crate::rig::{G, KAPPA, block};
 use hexroll::Result;
 use hexroll::model::Model;
 use hexroll::physics::element::hex8;
-use hexroll::physics::material::{MooneyRivlin, MooneyRivlinEq4, NeoHookean, Yeoh};
+use hexroll::physics::material::{ArrudaBoyce, MooneyRivlin, MooneyRivlinEq4, NeoHookean, Ogden, Yeoh};
 use hexroll::scene::{Element, Law};
 
 pub const CASE: Case = Case {
@@ -63,7 +63,31 @@ fn principal(law: &Law, l: [f64; 3]) -> [f64; 3] {
             let e = b.iter().sum::<f64>() * J.powf(-2.0 / 3.0) - 3.0;
             split(bulk_modulus, 2.0 * (c10 + 2.0 * c20 * e + 3.0 * c30 * e * e), 0.0, J, b)
         }
+        Law::ArrudaBoyce(law) => {
+            let i = b.iter().sum::<f64>() * J.powf(-2.0 / 3.0);
+            let volumetric = 0.5 * law.bulk_modulus * (J - 1.0 / J);
+            split(0.0, chains(&law, i), 0.0, J, b).map(|s| s + volumetric)
+        }
+        Law::Ogden(law) => {
+            let t = powers(&law, l.map(|l| l * J.powf(-1.0 / 3.0)));
+            let mean = t.iter().sum::<f64>() / 3.0;
+            t.map(|t| law.bulk_modulus * (J - 1.0) + (t - mean) / J)
+        }
     }
+}
+
+/// 2 dW/dI of the five terms as Arruda and Boyce print them.
+fn chains(law: &ArrudaBoyce, i: f64) -> f64 {
+    let terms =
+        [(1.0, 0.5), (2.0, 0.05), (3.0, 11.0 / 1050.0), (4.0, 19.0 / 7000.0), (5.0, 519.0 / 673_750.0)];
+    let term = |(n, c): (f64, f64)| n * c * law.lambda_m.powf(2.0 - 2.0 * n) * i.powf(n - 1.0);
+    2.0 * law.mu * terms.map(term).iter().sum::<f64>()
+}
+
+/// l dW/dl = sum 2 mu / alpha l^alpha at stretches whose product is 1.
+fn powers(law: &Ogden, l: [f64; 3]) -> [f64; 3] {
+    let terms = [(law.mu1, law.alpha1), (law.mu2, law.alpha2), (law.mu3, law.alpha3)];
+    l.map(|l| terms.iter().map(|(mu, alpha)| 2.0 * mu / alpha * l.powf(*alpha)).sum())
 }
 
 /// g0 (J - 1) + dev[g1 b' + g2 (I1' b' - b'^2)] / J with b' = J^(-2/3) b.
@@ -125,11 +149,25 @@ fn sheared(law: &Law, g: f64) -> (Matrix, Matrix) {
         Law::Yeoh(Yeoh { c10, c20, c30, .. }) => {
             (2.0 * (c10 + 2.0 * c20 * g * g + 3.0 * c30 * g.powi(4)), 0.0, true)
         }
+        Law::ArrudaBoyce(law) => (chains(&law, 3.0 + g * g), 0.0, true),
+        Law::Ogden(law) => return (F, sheared_by_powers(&law, g)),
     };
     let mean = if deviatoric { (g1 - g2) * g * g / 3.0 } else { 0.0 };
     let shear = (g1 + g2) * g;
     let normal = [g1 * g * g - mean, -g2 * g * g - mean, -mean];
     (F, [[normal[0], shear, 0.0], [shear, normal[1], 0.0], [0.0, 0.0, normal[2]]])
+}
+
+/// The deviator of principal stresses along the axes of simple shear: of stretches l, 1/l and 1 with l - 1/l = g, l at the angle
+/// a from the x axis with tan a = 1/l.
+fn sheared_by_powers(law: &Ogden, g: f64) -> Matrix {
+    let l = 0.5 * (g + (g * g + 4.0).sqrt());
+    let t = powers(law, [l, 1.0 / l, 1.0]);
+    let mean = t.iter().sum::<f64>() / 3.0;
+    let [t1, t2, t3] = t.map(|t| t - mean);
+    let (c, s) = (l / (l * l + 1.0).sqrt(), 1.0 / (l * l + 1.0).sqrt());
+    let shear = (t1 - t2) * c * s;
+    [[t1 * c * c + t2 * s * s, shear, 0.0], [shear, t1 * s * s + t2 * c * c, 0.0], [0.0, 0.0, t3]]
 }
 
 fn run() -> Result<Vec<Claim>> {

@@ -6,6 +6,7 @@ mod brush;
 mod carter;
 mod cattaneo;
 mod constitutive;
+mod coupons;
 mod cylinder;
 mod hertz_line;
 mod hertz_point;
@@ -22,6 +23,7 @@ use super::Case;
 /// Every case, in the order of the page that `hexroll report verification` writes.
 pub const CASES: &[Case] = &[
     constitutive::CASE,
+    coupons::CASE,
     waves::CASE,
     vibration::CASE,
     relaxation::CASE,
