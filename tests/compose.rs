@@ -26,7 +26,7 @@ fn roads() -> Vec<(Option<&'static str>, Option<Friction>)> {
 }
 
 /// Roads by their names in scenes.
-const ROADS: [&str; 2] = ["plane", "drum"];
+const ROADS: [&str; 3] = ["plane", "drum", "disk"];
 
 /// How many ways there are to decide each thing, in the order of [`choice`]: five that an element is made of, the place of
 /// elements and nodes (table, lattice, lattice whose chains are joined), five that a node is made of, the precision.
@@ -404,7 +404,7 @@ struct Feature {
     chosen: fn(&Choice) -> bool,
 }
 
-const FEATURES: [Feature; 13] = [
+const FEATURES: [Feature; 14] = [
     Feature {
         name: "friction",
         files: &[
@@ -459,6 +459,13 @@ const FEATURES: [Feature; 13] = [
         instead: &["road/plane"],
         buffers: &[],
         chosen: |c| c.road == Some("drum"),
+    },
+    Feature {
+        name: "a disk",
+        files: &["road/disk"],
+        instead: &["road/plane"],
+        buffers: &[],
+        chosen: |c| c.road == Some("disk"),
     },
     Feature {
         name: "viscosity",

@@ -116,7 +116,9 @@ fn the_guide_has_every_key_of_the_reader() {
         let section = if motion.starts_with('y') { "motion.0.y." } else { "motion.0.turn." };
         sections.push((section, keys(section, &[&format!("motion.0.{motion}")])));
     }
-    sections.push(("road.", keys("road.", &["road.shape=drum"])));
+    for road in ["drum", "disk"] {
+        sections.push(("road.", keys("road.", &[&format!("road.shape={road}")])));
+    }
     for kind in Friction::KINDS {
         sections.push(("friction.", keys("friction.", &[&format!("friction.law={}", kind.name)])));
     }

@@ -62,7 +62,7 @@ fn a_body_placed_on_a_road_touches_it() {
             [(ring([16, 2, 3]), -0.01), (ring([16, 2, 3]), 0.05), (lifted(0.0).body.mesh, -0.02)]
         {
             let mut scene = scene(mesh);
-            scene.road = Some(road);
+            scene.road = Some(road.clone());
             scene.body.offset = [0.002, 0.0, lift];
             scene.body.on_road = true;
             let model = Model::new(&scene).unwrap();

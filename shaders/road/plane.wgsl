@@ -20,3 +20,8 @@ override road_velocity_z: real;
 fn road_velocity(x: vec3r) -> vec3r {
     return vec3r(road_velocity_x, road_velocity_y, road_velocity_z);
 }
+
+// Rounding alone hides slip.
+fn road_told_squared() -> real {
+    return rounding_squared();
+}

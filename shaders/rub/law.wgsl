@@ -11,8 +11,8 @@ fn rub(role: u32, x: vec3r, v: vec3r, n: vec3r, push: real, per_step: real, pres
     let v_before = v - surface;
     let slip_before = v_before - dot(v_before, n) * n;
     let square = dot(slip_before, slip_before);
-    // What rounding leaves of a node that stuck is no slip.
-    let seen = square > rounding_squared() * (dot(v, v) + dot(surface, surface));
+    // What rounding leaves of a node that stuck is no slip, nor what the road turns in a step.
+    let seen = square > road_told_squared() * (dot(v, v) + dot(surface, surface));
     let before = select(real(0.0), sqrt(square), seen);
     let sliding = friction_coefficient(pressure, before) * push;
     if speed <= held && speed <= sliding {

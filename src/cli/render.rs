@@ -82,7 +82,7 @@ pub fn execute(args: &RenderArgs) -> Result<()> {
         size: args.size,
         view: args.view,
         title: scene.as_ref().map(|s| s.title.clone()).unwrap_or_default(),
-        road: scene.as_ref().and_then(|s| s.road),
+        road: scene.as_ref().and_then(|s| s.road.clone()),
     };
     let out = args.out.as_deref().unwrap_or(&args.dir);
     let written = pictures::draw(&snapshots, &wanted, &asked(args, scene.as_ref()), &style, out)?;

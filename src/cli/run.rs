@@ -178,7 +178,7 @@ impl Report<'_> {
             round_off_J: totals.energy_round_off(),
             errors: totals.estimate.into(),
             // + 0.0: no road was pierced is 0, not -0.
-            worst_penetration_m: scene.road.map(|_| -totals.ledger.worst_gap + 0.0),
+            worst_penetration_m: scene.road.as_ref().map(|_| -totals.ledger.worst_gap + 0.0),
             finished: error.is_none(),
             stages,
             versions: Versions::current(),
@@ -202,7 +202,8 @@ impl Report<'_> {
     }
 
     fn draw(&self) -> Result<usize> {
-        let style = Style { title: self.scene.title.clone(), road: self.scene.road, ..Style::default() };
+        let style =
+            Style { title: self.scene.title.clone(), road: self.scene.road.clone(), ..Style::default() };
         let stored = hexroll::output::read::snapshots(self.out)?;
         let wanted: Vec<usize> = (0..stored.len()).collect();
         let drawn = pictures::draw(&stored, &wanted, &self.scene.output.pictures, &style, self.out)?;

@@ -54,7 +54,7 @@ impl<'a, T: Real> Course<'a, T> {
     pub fn early(&self, n: usize) -> Conditions<T> {
         let held = &self.rim.q;
         match &self.known {
-            Some(known) => known[n],
+            Some(known) => known[n].clone(),
             None => self.world.conditions(self.first + n as u64, &self.steps[n], held, held),
         }
     }
@@ -72,7 +72,7 @@ impl<'a, T: Real> Course<'a, T> {
             Some(known) => {
                 let rate = std::array::from_fn(|c| (step.rim[c] - before.q[c]) / step.dt);
                 *rim = RimState { q: step.rim, rate, ..before };
-                known[n]
+                known[n].clone()
             }
             None => {
                 let (q, rate) = before.advanced(self.setup, step, &reaction(&before));

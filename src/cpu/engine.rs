@@ -80,7 +80,7 @@ impl<T: Compilable> CpuEngine<T> {
     pub fn with_level(model: &Model, scene: &Scene, threads: usize, level: Level) -> Self {
         let threads = if threads == 0 { threads_for(model) } else { threads };
         let mesh = &model.mesh;
-        let road = scene.road;
+        let road = scene.road.clone();
         let compiled = compiled(level);
         let passes = T::passes(&*compiled, &model.composition(), model.is_extruded());
         let width = passes.width;

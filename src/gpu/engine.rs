@@ -111,7 +111,7 @@ impl GpuEngine {
                 fixed: false,
             },
             rim: FreeRim::new(&model),
-            road: scene.road,
+            road: scene.road.clone(),
             series,
             mesh,
             grain,

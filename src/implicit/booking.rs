@@ -82,7 +82,7 @@ impl Books {
             sum.sticking += u32::from(sum.sticks);
             (0..3).for_each(|i| sum.impulse[i] += dt * s.contact[n][i]);
             if let Some(surface) = s.surface() {
-                sum.road_work += dt * dot(s.contact[n], surface.road.velocity(s.x[n]));
+                sum.road_work += dt * dot(s.contact[n], surface.road.velocity_over(s.x[n], dt));
             }
         }
         self.remember(s);

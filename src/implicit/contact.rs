@@ -13,7 +13,7 @@
 use super::matrix::{Block, product, times, transposed};
 use crate::physics::friction::{Friction, Sliding};
 use crate::physics::road::Road;
-use crate::physics::tensor::{Vec3, axpy, cross, dot, scale, sub};
+use crate::physics::tensor::{Vec3, cross, dot, scale, sub};
 
 /// What a node does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -83,7 +83,7 @@ pub fn frame(n: Vec3<f64>) -> Block {
 impl Surface {
     /// Motion of the road's surface point over the increment.
     fn carried(&self, start: Vec3<f64>) -> Vec3<f64> {
-        axpy(self.road.velocity(start), self.dt, start)
+        self.road.carried(start, self.dt)
     }
 
     /// Coefficient of surface node `k` under a normal force [N], sliding at a speed [m/s].

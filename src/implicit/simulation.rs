@@ -207,7 +207,7 @@ impl<'a> Simulation<'a> {
             Some(law) if law.needs_area() => inverse_areas(mesh, |n| self.x[n as usize], &surface.road),
             _ => Vec::new(),
         };
-        Surface { dt, inverse_area, ..*surface }
+        Surface { dt, inverse_area, ..surface.clone() }
     }
 
     /// Nodes that touch, or would within the step at their present speed and acceleration.

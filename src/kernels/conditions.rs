@@ -6,7 +6,7 @@ use crate::physics::road::Road;
 use crate::physics::tensor::Vec3;
 
 /// Everything that is the same for all nodes of a step.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Conditions<T> {
     pub step: StepSize<T>,
     pub loads: Loads<T>,

@@ -31,7 +31,8 @@ struct Unpacked<T> {
     new_v: [[T; WIDEST]; 3],
 }
 
-/// Puts the nodes of a batch that would end inside the road back on it.
+/// Puts the nodes of a batch that would end inside the road back on it: lanes look at its bound, and those that are below it
+/// at the road itself, one by one.
 ///
 /// # Safety
 /// A line of the early or the late phase of [`super::shared::Shared`]'s contract; `at`: the place of one of its batches.
@@ -47,7 +48,7 @@ pub unsafe fn touch<N: Lanes, const PROBE: bool>(
     sums: &mut LineSums,
     contact: &mut LineContact,
 ) -> Moved<N> {
-    let inside = road.gap(free.x).negative() & batch.surface;
+    let inside = road.bound(free.x).negative() & batch.surface;
     if inside == 0 {
         return free;
     }
@@ -140,7 +141,7 @@ unsafe fn book_touch<T: Real, const PROBE: bool>(
         contact.force[d] += force;
     }
     if c.road_moves {
-        let (force, surface) = (add(t.normal_force, t.tangential_force), road.velocity(t.x));
+        let (force, surface) = (add(t.normal_force, t.tangential_force), road.velocity_over(t.x, c.step.dt));
         sum.road_work += (dot(force, surface) * c.step.dtm).to_f64();
     }
     let stays = *last == c.number && c.number > 0;

@@ -60,7 +60,7 @@ pub fn project<S: Real>(
         None => (pressed, false),
         Some(law) => {
             let pressure = if law.needs_area() { per_step * push * inverse_area() } else { S::zero() };
-            law.visit(Rubbed { road, node, x_star, n, push, pressure, pressed })
+            law.visit(Rubbed { road, dt: step.dt, node, x_star, n, push, pressure, pressed })
         }
     };
     let mut x_new = axpy(v, step.dt, node.x);
@@ -72,6 +72,7 @@ pub fn project<S: Real>(
 /// Velocity after friction of a node that is pressed on the road with `push` [m/s].
 struct Rubbed<'a, S> {
     road: &'a Road,
+    dt: S,
     node: &'a Node<S>,
     x_star: Vec3<S>,
     n: Vec3<S>,
@@ -89,8 +90,8 @@ impl<S: Real> WithFriction for Rubbed<'_, S> {
     /// With the road if the force that needs is within the cone, else slowed by mu fN.
     #[inline(always)]
     fn with<F: FrictionLaw>(self, law: F) -> (Vec3<S>, bool) {
-        let Rubbed { road, node, x_star, n, push, pressure, pressed } = self;
-        let surface = road.velocity(x_star);
+        let Rubbed { road, dt, node, x_star, n, push, pressure, pressed } = self;
+        let surface = road.velocity_over(x_star, dt);
         let relative = sub(pressed, surface);
         let normal_speed = dot(relative, n);
         let slip = axpy(n, -normal_speed, relative);
@@ -104,7 +105,7 @@ impl<S: Real> WithFriction for Rubbed<'_, S> {
                 (axpy(n, normal_speed, surface), true)
             };
         }
-        let before = slip_before(road, node);
+        let before = slip_before(road, dt, node);
         // What slid in the step before is stopped by the friction of its sliding, not by that of rest.
         let sliding = most(before);
         if speed <= held && speed <= sliding {
@@ -116,15 +117,16 @@ impl<S: Real> WithFriction for Rubbed<'_, S> {
 }
 
 /// Slip speed in the step before [m/s]. What rounding leaves of a node that stuck is none: a law that jumps at rest would take
-/// it for sliding.
+/// it for sliding. Nor is what a road turns in a step, whose velocity is not told from that of the step before.
 #[inline(always)]
-fn slip_before<S: Real>(road: &Road, node: &Node<S>) -> S {
-    let (surface, n) = (road.velocity(node.x), road.normal(node.x));
+fn slip_before<S: Real>(road: &Road, dt: S, node: &Node<S>) -> S {
+    let (surface, n) = (road.velocity_over(node.x, dt), road.normal(node.x));
     let relative = sub(node.v, surface);
     let slip = axpy(n, -dot(relative, n), relative);
     let (square, scale) = (dot(slip, slip), dot(node.v, node.v) + dot(surface, surface));
     // A dozen roundings of the velocities.
-    let rounding = S::from_f64((16.0 * S::EPSILON) * (16.0 * S::EPSILON));
+    let told = 16.0 * S::EPSILON + road.turning() * dt.to_f64();
+    let rounding = S::from_f64(told * told);
     if square > rounding * scale { square.sqrt() } else { S::zero() }
 }
 

@@ -129,7 +129,7 @@ impl Renderer {
 
 /// The road's plate, if there is a road near enough to be seen with the body.
 fn plate(snapshot: &Snapshot, options: &BodyView) -> Option<Plate> {
-    let chart = Chart(options.road?);
+    let chart = Chart(options.road.clone()?);
     let points: Vec<DVec3> = snapshot.x.iter().map(|&x| x.into()).collect();
     let low = points.iter().copied().reduce(DVec3::min)?;
     let high = points.iter().copied().reduce(DVec3::max)?;

@@ -119,7 +119,7 @@ impl Renderer {
     ) -> Result<RgbaImage> {
         check_size(options.size, self.gpu.largest())?;
         field::check(mesh, snapshot)?;
-        let contact = Contact::of(mesh, snapshot, options.road);
+        let contact = Contact::of(mesh, snapshot, options.road.clone());
         let (_, unit) = options.colour.name();
         let values: Vec<f64> = contact.touches.iter().map(|t| options.colour.of(t)).collect();
         let scale = Scale::new(&values, unit, options.range, true);

@@ -40,7 +40,7 @@ impl Renderer {
         let largest = contact.touches.iter().map(|t| t.normal.max(t.shear.length())).fold(0.0, f64::max);
         let reach = REACH * (contact.high - contact.low).max_element();
         let metres_per_newton = if largest > 0.0 { reach / largest } else { 0.0 };
-        let plate = Plate::under(contact.chart, &contact.corners(), 0.03);
+        let plate = Plate::under(contact.chart.clone(), &contact.corners(), 0.03);
         let mut points = plate.outline();
         let tip = |t: &Touch| t.x + contact.chart.axes(t.x).normal * (t.normal * metres_per_newton);
         points.extend(contact.touches.iter().map(tip));

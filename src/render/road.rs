@@ -18,7 +18,7 @@ pub struct Axes {
 }
 
 /// A road by its own coordinates.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Chart(pub Road);
 
 impl Chart {
@@ -44,15 +44,18 @@ impl Chart {
         Axes { along, across, normal: self.0.normal(x.to_array()).into() }
     }
 
-    /// Coordinates along the first direction from `low` to `high`, between which the road is drawn straight.
-    fn steps(&self, low: f64, high: f64) -> Vec<f64> {
-        let count = ((high - low) / self.0.straight()).ceil().max(1.0) as usize;
+    /// Coordinates from `low` to `high` along the first or the second direction, between which the road is drawn straight.
+    fn steps(&self, direction: usize, low: f64, high: f64) -> Vec<f64> {
+        let count = ((high - low) / self.0.straight()[direction]).ceil().clamp(1.0, MOST_STEPS) as usize;
         (0..=count).map(|i| low + (high - low) * i as f64 / count as f64).collect()
     }
 }
 
+/// A picture has some thousand pixels across: finer steps are not seen.
+const MOST_STEPS: f64 = 500.0;
+
 /// The part of a road that is drawn.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Plate {
     chart: Chart,
     low: DVec2,
@@ -82,17 +85,24 @@ impl Plate {
         }
     }
 
-    /// The rim of the plate at this height, along both edges: for fitting the camera.
-    fn rims(&self, height: f64) -> [Vec<DVec3>; 2] {
-        [self.low.y, self.high.y].map(|y| {
-            let steps = self.chart.steps(self.low.x, self.high.x);
-            steps.into_iter().map(|x| self.chart.at(DVec2::new(x, y), height)).collect()
-        })
+    /// Where the road is drawn straight, along its two coordinates.
+    fn steps(&self) -> [Vec<f64>; 2] {
+        let (low, high) = (self.low, self.high);
+        [self.chart.steps(0, low.x, high.x), self.chart.steps(1, low.y, high.y)]
+    }
+
+    /// Points along the four edges, at the road's surface or below it: along the first coordinate, and along the second.
+    fn rims(&self, below: f64) -> [Vec<DVec3>; 4] {
+        let [xs, ys] = self.steps();
+        let at = |x: f64, y: f64| self.chart.at(DVec2::new(x, y), -below);
+        let along = |y: f64| xs.iter().map(|&x| at(x, y)).collect();
+        let across = |x: f64| ys.iter().map(|&y| at(x, y)).collect();
+        [along(self.low.y), along(self.high.y), across(self.low.x), across(self.high.x)]
     }
 
     /// Points that a picture of the plate must hold.
     pub fn outline(&self) -> Vec<DVec3> {
-        [self.rims(0.0), self.rims(-self.thickness)].concat().concat()
+        [self.rims(0.0), self.rims(self.thickness)].concat().concat()
     }
 
     /// Draws the plate; seen from below only its grid, so that the body stays visible.
@@ -100,19 +110,8 @@ impl Plate {
         let middle = self.chart.at(0.5 * (self.low + self.high), 0.0);
         let facing = self.chart.axes(middle).normal.dot(camera.towards_eye());
         if facing > -1e-6 {
-            let ([near, far], [near_foot, far_foot]) = (self.rims(0.0), self.rims(-self.thickness));
-            let last = near.len() - 1;
-            let mut side = |corners| quad(&mut geometry.plain, camera, corners, [linear(SIDE); 4]);
-            for i in 0..last {
-                side([near_foot[i], near_foot[i + 1], near[i + 1], near[i]]);
-                side([far_foot[i + 1], far_foot[i], far[i], far[i + 1]]);
-            }
-            side([near_foot[last], far_foot[last], far[last], near[last]]);
-            side([far_foot[0], near_foot[0], near[0], far[0]]);
-            for i in 0..last {
-                let top = [near[i], near[i + 1], far[i + 1], far[i]];
-                quad(&mut geometry.plain, camera, top, [linear(TOP); 4]);
-            }
+            self.draw_sides(camera, geometry);
+            self.draw_top(camera, geometry);
         }
         for (line, mut colour, width) in self.grid() {
             let [from, to] = line.map(|p| camera.local(p));
@@ -124,22 +123,45 @@ impl Plate {
         }
     }
 
+    fn draw_sides(&self, camera: &Camera, geometry: &mut Geometry) {
+        let (tops, feet) = (self.rims(0.0), self.rims(self.thickness));
+        for (edge, reversed) in [(0, false), (1, true), (3, false), (2, true)] {
+            for (top, foot) in tops[edge].windows(2).zip(feet[edge].windows(2)) {
+                let [a, b] = if reversed { [1, 0] } else { [0, 1] };
+                let corners = [foot[a], foot[b], top[b], top[a]];
+                quad(&mut geometry.plain, camera, corners, [linear(SIDE); 4]);
+            }
+        }
+    }
+
+    fn draw_top(&self, camera: &Camera, geometry: &mut Geometry) {
+        let [xs, ys] = self.steps();
+        let line =
+            |y: &f64| -> Vec<DVec3> { xs.iter().map(|&x| self.chart.at(DVec2::new(x, *y), 0.0)).collect() };
+        let lines: Vec<Vec<DVec3>> = ys.iter().map(line).collect();
+        for pair in lines.windows(2) {
+            for (near, far) in pair[0].windows(2).zip(pair[1].windows(2)) {
+                quad(&mut geometry.plain, camera, [near[0], near[1], far[1], far[0]], [linear(TOP); 4]);
+            }
+        }
+    }
+
     /// Grid lines at round coordinates, and the border.
     fn grid(&self) -> Vec<([DVec3; 2], [f32; 4], f64)> {
         let at = |x: f64, y: f64| self.chart.at(DVec2::new(x, y), 0.0);
-        let (quiet, border) = (ink(GRID, 0.8), ink(GRID, 1.0));
-        let (low, high) = (self.low, self.high);
-        let across = |x: f64| [at(x, low.y), at(x, high.y)];
-        let along = |y: f64| {
-            let points: Vec<DVec3> = self.chart.steps(low.x, high.x).into_iter().map(|x| at(x, y)).collect();
-            points.windows(2).map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>()
+        let pieces = |points: Vec<DVec3>| -> Vec<[DVec3; 2]> {
+            points.windows(2).map(|pair| [pair[0], pair[1]]).collect()
         };
+        let (quiet, border) = (ink(GRID, 0.8), ink(GRID, 1.0));
+        let (low, high, [xs, ys]) = (self.low, self.high, self.steps());
+        let across = |x: f64| pieces(ys.iter().map(|&y| at(x, y)).collect());
+        let along = |y: f64| pieces(xs.iter().map(|&x| at(x, y)).collect());
         let mut lines = Vec::new();
         let columns = round_values(low.x, high.x, self.spacing);
-        lines.extend(columns.into_iter().map(|x| (across(x), quiet, 1.0)));
+        lines.extend(columns.into_iter().flat_map(across).map(|line| (line, quiet, 1.0)));
         let rows = round_values(low.y, high.y, self.spacing);
         lines.extend(rows.into_iter().flat_map(along).map(|line| (line, quiet, 1.0)));
-        lines.extend([low.x, high.x].map(|x| (across(x), border, 1.5)));
+        lines.extend([low.x, high.x].into_iter().flat_map(across).map(|line| (line, border, 1.5)));
         lines.extend([low.y, high.y].into_iter().flat_map(along).map(|line| (line, border, 1.5)));
         lines
     }

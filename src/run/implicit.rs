@@ -100,7 +100,7 @@ impl<'a> Run<'a> {
     /// When the stage ends: with the ramps of a static one, if nothing moves on.
     fn implicit_end(&self, stage: &Stage, settings: &Implicit, start: f64) -> f64 {
         let moves = |d: &Drive| matches!(d, Drive::Velocity { to, .. } if *to != 0.0);
-        let road_moves = self.scene.friction.is_some() && self.scene.road.is_some_and(|road| road.moves());
+        let road_moves = self.scene.friction.is_some() && self.scene.road.as_ref().is_some_and(Road::moves);
         let settled = self.state.rim.motion.settled_after().max(self.model.mesh.driven_end());
         match settings.scheme {
             ImplicitScheme::Static { .. }
@@ -227,8 +227,8 @@ impl<'a> Run<'a> {
 
 fn surface(road: Option<&Road>, friction: Option<Friction>, model: &Model) -> Option<Surface> {
     let reach = model.mesh.nodes.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
-    road.map(|&road| Surface {
-        road,
+    road.map(|road| Surface {
+        road: road.clone(),
         friction,
         inverse_area: Vec::new(),
         dt: 0.0,

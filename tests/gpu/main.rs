@@ -19,6 +19,7 @@ mod repeat;
 mod resident;
 mod rig;
 mod rim;
+mod roads;
 mod rolling;
 mod runs;
 mod small_strains;
@@ -33,7 +34,7 @@ use std::sync::Arc;
 
 type Check = fn(&Gpu);
 
-const CHECKS: [(&str, Check); 32] = [
+const CHECKS: [(&str, Check); 33] = [
     ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
     ("ogden_with_powers_two_and_minus_two_is_mooney_rivlin", forces::ogden_is_mooney_rivlin),
     ("forces_as_pairs_are_the_cpus", forces::pairs),
@@ -64,6 +65,7 @@ const CHECKS: [(&str, Check); 32] = [
     ("an_adapter_without_doubles_refuses_them", errors::no_doubles),
     ("what_wgpu_refuses_is_an_error", errors::device_errors),
     ("friction_laws_and_holds_are_the_cpus", laws::friction_and_holds),
+    ("every_road_is_the_cpus", roads::every_road),
     ("contact_step_by_step_adds_up", contact::steps_add_up),
     ("nothing_penetrates_and_what_sticks_stays", contact::exact),
 ];

@@ -32,7 +32,8 @@ fn means(gpu: &Gpu, who: Who, stem: &str) -> ([f64; 3], ContactScatter) {
     });
     let noise = totals.noise.iter().rev().find_map(Option::as_ref).expect("the last stage rolls");
     let scatter =
-        ContactScatter::of(noise, scene.road.unwrap().normal([0.0; 3]), scene.output.chatter_limit).unwrap();
+        ContactScatter::of(noise, scene.road.as_ref().unwrap().normal([0.0; 3]), scene.output.chatter_limit)
+            .unwrap();
     note(|| format!("{stem} {who:?}: {scatter:?}"));
     (means, scatter)
 }

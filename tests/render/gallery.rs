@@ -83,9 +83,11 @@ fn slope(renderer: &mut Renderer, save: &dyn Fn(&str, RgbaImage)) {
             .collect();
         save(
             name,
-            renderer.body(&mesh, &snapshot, &BodyView { road: Some(road), ..BodyView::default() }).unwrap(),
+            renderer
+                .body(&mesh, &snapshot, &BodyView { road: Some(road.clone()), ..BodyView::default() })
+                .unwrap(),
         );
-        let view = FootprintView { road, ..FootprintView::default() };
+        let view = FootprintView { road: road.clone(), ..FootprintView::default() };
         save(&format!("{name}_footprint"), renderer.footprint(&mesh, &snapshot, &view).unwrap());
     }
 }

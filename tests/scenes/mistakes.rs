@@ -442,7 +442,7 @@ fn toml_syntax_errors_name_their_line() {
 #[test]
 fn what_comes_later_is_called_unavailable_not_unknown() {
     for (set, what, instead) in [
-        ("road.shape=disk", "road.shape: \"disk\"", "\"plane\""),
+        ("road.shape=sphere", "road.shape: \"sphere\"", "\"plane\""),
         ("road.shape=rough", "road.shape: \"rough\"", "\"plane\""),
         ("road.roughness=1 mm", "road.roughness", "smooth"),
         ("friction.law=table", "friction.law: \"table\"", "\"coulomb\""),
@@ -457,7 +457,7 @@ fn what_comes_later_is_called_unavailable_not_unknown() {
         assert!(shown.contains(what) && shown.contains(instead), "{shown}");
         assert_eq!(error.exit_code(), 3);
     }
-    let text = GOOD.replace("shape = \"plane\"", "shape = \"disk\"");
+    let text = GOOD.replace("shape = \"plane\"", "shape = \"sphere\"");
     let shown = Scene::parse(&text, "bad.toml", &[]).unwrap_err().to_string();
     let line = line_of("shape =");
     assert!(shown.starts_with(&format!("bad.toml:{line}: road.shape")), "{shown}");

@@ -129,7 +129,7 @@ fn scene_kernels(scene: &Scene) -> Vec<(Kernel, &'static str)> {
         (Kernel::Gather, "for the critical step"),
         (Kernel::Reduce, "every window"),
     ];
-    kernels.extend(scene.road.map(|_| (Kernel::SurfaceState, "every window")));
+    kernels.extend(scene.road.as_ref().map(|_| (Kernel::SurfaceState, "every window")));
     kernels.extend(scene.rim.as_ref().map(|_| (Kernel::Rebase, "when the wheel has rolled a grain further")));
     kernels
 }

@@ -97,7 +97,7 @@ pub fn pieces(scene: &Scene, sets: &NodeSets) -> Vec<Piece> {
         piece("gravity", (scene.gravity != [0.0; 3]).then(|| format!("{:?} m/s2", scene.gravity))),
         piece("held components", (!scene.holds.is_empty()).then(|| holds(scene, sets))),
         piece("moved components", (!scene.motions.is_empty()).then(|| motions(scene, sets))),
-        piece("road", scene.road.map(|road| road.description())),
+        piece("road", scene.road.as_ref().map(|road| road.description())),
         piece("friction", scene.friction.map(|law| law.formula())),
         piece(
             "rim",

@@ -1,6 +1,6 @@
-use super::Surface;
-use crate::scalar::Scalar;
-use crate::tensor::{Vec3, axpy, cross, dot, scale, sub, vec3};
+use super::{Surface, turned};
+use crate::scalar::{Real, Scalar};
+use crate::tensor::{Vec3, add, axpy, cross, dot, scale, sub, vec3};
 
 /// A round drum that turns about its axis, seen from a point of its surface: a plane bent about `axis`.
 ///
@@ -49,20 +49,29 @@ impl Surface for Drum {
     const NAME: &'static str = "drum";
 
     #[inline(always)]
-    fn gap<S: Scalar>(&self, x: Vec3<S>) -> S {
+    fn bound<S: Scalar>(&self, x: Vec3<S>) -> S {
         let (_, root, s) = self.bent(x);
         (s + s) / (S::one() + root)
     }
 
     #[inline(always)]
-    fn normal<S: Scalar>(&self, x: Vec3<S>) -> Vec3<S> {
+    fn gap<S: Real>(&self, x: Vec3<S>) -> S {
+        self.bound(x)
+    }
+
+    #[inline(always)]
+    fn normal<S: Real>(&self, x: Vec3<S>) -> Vec3<S> {
         let (y, root, _) = self.bent(x);
         scale(axpy(y, S::from_f64(self.curvature), vec3(self.normal)), S::one() / root)
     }
 
     #[inline(always)]
-    fn velocity<S: Scalar>(&self, x: Vec3<S>) -> Vec3<S> {
+    fn velocity<S: Real>(&self, x: Vec3<S>) -> Vec3<S> {
         scale(cross(vec3(self.axis), self.normal(x)), S::from_f64(self.speed))
+    }
+
+    fn carried(&self, x: [f64; 3], dt: f64) -> [f64; 3] {
+        add(x, turned(self.axis, self.speed * self.curvature, self.velocity(x), dt))
     }
 
     fn moves(&self) -> bool {
@@ -100,8 +109,8 @@ impl Surface for Drum {
     }
 
     /// 3 degrees: the chord is within 0.04 % of the radius.
-    fn straight(&self) -> f64 {
-        0.05 / self.curvature.abs()
+    fn straight(&self) -> [f64; 2] {
+        [0.05 / self.curvature.abs(), f64::INFINITY]
     }
 
     fn constants(&self) -> Vec<(&'static str, f64)> {

@@ -1,32 +1,49 @@
 //! Rigid roads. A road answers all that anyone asks of it: gap, normal and velocity at a point, directions along which it
 //! does not change, axes of a footprint on it, the surface that pictures draw. Nobody else matches on its kind.
 
+mod disk;
 mod drum;
 mod plane;
 
+pub use disk::Disk;
 pub use drum::Drum;
 pub use plane::Plane;
 
-use super::scalar::Scalar;
-use super::tensor::{Vec3, cross, dot, scale, sub};
+use super::scalar::{Real, Scalar};
+use super::tensor::{Vec3, axpy, cross, dot, scale, sub};
 
 /// A rigid surface. Parameters are in f64; formulas take any scalar.
-pub trait Surface: Copy + std::fmt::Debug + PartialEq + Send + Sync + 'static {
+pub trait Surface: Clone + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// Name in a scene file; with `_` for `-` the stem of its shader.
     const NAME: &'static str;
 
+    /// Never more than the gap: what is asked of every node in every step. Where it is not negative a node is outside.
+    fn bound<S: Scalar>(&self, x: Vec3<S>) -> S;
     /// Distance of x from the surface along the normal, negative inside [m] (eq. 8).
-    fn gap<S: Scalar>(&self, x: Vec3<S>) -> S;
+    fn gap<S: Real>(&self, x: Vec3<S>) -> S;
     /// Outward unit normal at the surface point nearest to x.
-    fn normal<S: Scalar>(&self, x: Vec3<S>) -> Vec3<S>;
+    fn normal<S: Real>(&self, x: Vec3<S>) -> Vec3<S>;
     /// Velocity of the surface there [m/s]; square to the normal.
-    fn velocity<S: Scalar>(&self, x: Vec3<S>) -> Vec3<S>;
+    fn velocity<S: Real>(&self, x: Vec3<S>) -> Vec3<S>;
+    /// Mean velocity over a step of `dt` of what ends the step at x [m/s].
+    #[inline(always)]
+    fn velocity_over<S: Real>(&self, x: Vec3<S>, _dt: S) -> Vec3<S> {
+        self.velocity(x)
+    }
+    /// Where the road takes what lies on it at x within `dt` [m].
+    fn carried(&self, x: [f64; 3], dt: f64) -> [f64; 3] {
+        axpy(self.velocity(x), dt, x)
+    }
+    /// How fast its velocity turns where a node stays with it, in its own plane [rad/s].
+    fn turning(&self) -> f64 {
+        0.0
+    }
 
     /// Whether any of it moves.
     fn moves(&self) -> bool;
     /// The same road seen from axes whose origin is at `origin` [m].
     fn seen_from(&self, origin: [f64; 3]) -> Self;
-    /// Directions x, y, z along which it does not change, to the last digit.
+    /// Directions x, y, z along which it does not change, to the last digit: neither where it is nor how it moves.
     fn invariant(&self) -> [bool; 3];
 
     /// What of it acts along direction x, y or z anywhere, as a subject and its verb; `None`: it neither pushes nor drags.
@@ -38,9 +55,8 @@ pub trait Surface: Copy + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     fn point(&self, chart: [f64; 2]) -> [f64; 3];
     /// Unit vectors along the coordinates at the surface point nearest to x; with the normal a right-handed set.
     fn tangents(&self, x: [f64; 3]) -> [[f64; 3]; 2];
-    /// Longest straight line along the first coordinate that may stand for the surface in a picture [m]; infinite where it is
-    /// flat.
-    fn straight(&self) -> f64;
+    /// Longest straight lines along the coordinates that may stand for the surface in a picture [m]; infinite where it is flat.
+    fn straight(&self) -> [f64; 2];
 
     /// Values by the shaders' names.
     fn constants(&self) -> Vec<(&'static str, f64)>;
@@ -48,11 +64,31 @@ pub trait Surface: Copy + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     fn description(&self) -> String;
 }
 
+/// Displacement within `dt` of a point that moves with `velocity` about a unit `axis` with `spin`: an arc [m].
+fn turned(axis: [f64; 3], spin: f64, velocity: [f64; 3], dt: f64) -> [f64; 3] {
+    let angle = spin * dt;
+    // sin(a)/a and (1 - cos a)/a.
+    let [along, across] = match angle == 0.0 {
+        true => [1.0, 0.0],
+        false => [angle.sin() / angle, 2.0 * (0.5 * angle).sin().powi(2) / angle],
+    };
+    axpy(cross(axis, velocity), across * dt, scale(velocity, along * dt))
+}
+
+/// Unit vectors in a plane: x, or what is left of it in the plane (of y, where the normal is along x), and what completes it.
+fn tangents_of(normal: [f64; 3]) -> [[f64; 3]; 2] {
+    let start = if normal[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+    let along = sub(start, scale(normal, dot(start, normal)));
+    let along = scale(along, 1.0 / dot(along, along).sqrt());
+    [along, cross(normal, along)]
+}
+
 /// Any road.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Road {
     Plane(Plane),
     Drum(Drum),
+    Disk(Disk),
 }
 
 /// The same question to whatever road it is.
@@ -61,65 +97,69 @@ macro_rules! ask {
         match $road {
             Road::Plane($surface) => $answer,
             Road::Drum($surface) => $answer,
+            Road::Disk($surface) => $answer,
         }
+    };
+}
+
+/// Questions that are handed on as they are.
+macro_rules! hand_on {
+    ($($name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        $(pub fn $name(&self $(, $argument: $type)*) -> $result {
+            ask!(self, road => Surface::$name(road $(, $argument)*))
+        })*
     };
 }
 
 /// What a road answers: see [`Surface`].
 impl Road {
+    /// Lanes meet two cases, whatever roads there are: a drum's, and that of planes.
     #[inline(always)]
-    pub fn gap<S: Scalar>(&self, x: Vec3<S>) -> S {
+    pub fn bound<S: Scalar>(&self, x: Vec3<S>) -> S {
+        let plane = match self {
+            Road::Plane(plane) => *plane,
+            Road::Drum(drum) => return drum.bound(x),
+            Road::Disk(disk) => disk.plane,
+        };
+        plane.bound(x)
+    }
+
+    #[inline(always)]
+    pub fn gap<S: Real>(&self, x: Vec3<S>) -> S {
         ask!(self, road => road.gap(x))
     }
 
     #[inline(always)]
-    pub fn normal<S: Scalar>(&self, x: Vec3<S>) -> Vec3<S> {
+    pub fn normal<S: Real>(&self, x: Vec3<S>) -> Vec3<S> {
         ask!(self, road => road.normal(x))
     }
 
     #[inline(always)]
-    pub fn velocity<S: Scalar>(&self, x: Vec3<S>) -> Vec3<S> {
+    pub fn velocity<S: Real>(&self, x: Vec3<S>) -> Vec3<S> {
         ask!(self, road => road.velocity(x))
     }
 
-    pub fn moves(&self) -> bool {
-        ask!(self, road => road.moves())
+    #[inline(always)]
+    pub fn velocity_over<S: Real>(&self, x: Vec3<S>, dt: S) -> Vec3<S> {
+        ask!(self, road => road.velocity_over(x, dt))
+    }
+
+    hand_on! {
+        carried(x: [f64; 3], dt: f64) -> [f64; 3];
+        turning() -> f64;
+        moves() -> bool;
+        invariant() -> [bool; 3];
+        acts_along(direction: usize) -> Option<&'static str>;
+        chart(x: [f64; 3]) -> [f64; 2];
+        point(chart: [f64; 2]) -> [f64; 3];
+        tangents(x: [f64; 3]) -> [[f64; 3]; 2];
+        straight() -> [f64; 2];
+        constants() -> Vec<(&'static str, f64)>;
+        description() -> String;
     }
 
     pub fn seen_from(&self, origin: [f64; 3]) -> Road {
         ask!(self, road => road.seen_from(origin).into())
-    }
-
-    pub fn invariant(&self) -> [bool; 3] {
-        ask!(self, road => road.invariant())
-    }
-
-    pub fn acts_along(&self, direction: usize) -> Option<&'static str> {
-        ask!(self, road => road.acts_along(direction))
-    }
-
-    pub fn chart(&self, x: [f64; 3]) -> [f64; 2] {
-        ask!(self, road => road.chart(x))
-    }
-
-    pub fn point(&self, chart: [f64; 2]) -> [f64; 3] {
-        ask!(self, road => road.point(chart))
-    }
-
-    pub fn tangents(&self, x: [f64; 3]) -> [[f64; 3]; 2] {
-        ask!(self, road => road.tangents(x))
-    }
-
-    pub fn straight(&self) -> f64 {
-        ask!(self, road => road.straight())
-    }
-
-    pub fn constants(&self) -> Vec<(&'static str, f64)> {
-        ask!(self, road => road.constants())
-    }
-
-    pub fn description(&self) -> String {
-        ask!(self, road => road.description())
     }
 
     /// Name in a scene file.
@@ -131,17 +171,16 @@ impl Road {
     }
 }
 
-impl From<Drum> for Road {
-    fn from(drum: Drum) -> Road {
-        Road::Drum(drum)
-    }
+macro_rules! roads {
+    ($($kind:ident),*) => {
+        $(impl From<$kind> for Road {
+            fn from(road: $kind) -> Road {
+                Road::$kind(road)
+            }
+        })*
+    };
 }
-
-impl From<Plane> for Road {
-    fn from(plane: Plane) -> Road {
-        Road::Plane(plane)
-    }
-}
+roads!(Plane, Drum, Disk);
 
 impl Road {
     /// Unit vectors along the surface at the point nearest to x: square to the unit vector `across` (of the axle), and to its

@@ -1,6 +1,6 @@
 use super::Surface;
-use crate::scalar::Scalar;
-use crate::tensor::{Vec3, cross, dot, scale, sub, vec3};
+use crate::scalar::{Real, Scalar};
+use crate::tensor::{Vec3, dot, scale, sub, vec3};
 
 /// The half-space n . x < n . point, moving in its own plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,17 +31,22 @@ impl Surface for Plane {
     const NAME: &'static str = "plane";
 
     #[inline(always)]
-    fn gap<S: Scalar>(&self, x: Vec3<S>) -> S {
+    fn bound<S: Scalar>(&self, x: Vec3<S>) -> S {
         dot(vec3(self.normal), x) - S::from_f64(self.offset())
     }
 
     #[inline(always)]
-    fn normal<S: Scalar>(&self, _x: Vec3<S>) -> Vec3<S> {
+    fn gap<S: Real>(&self, x: Vec3<S>) -> S {
+        self.bound(x)
+    }
+
+    #[inline(always)]
+    fn normal<S: Real>(&self, _x: Vec3<S>) -> Vec3<S> {
         vec3(self.normal)
     }
 
     #[inline(always)]
-    fn velocity<S: Scalar>(&self, _x: Vec3<S>) -> Vec3<S> {
+    fn velocity<S: Real>(&self, _x: Vec3<S>) -> Vec3<S> {
         vec3(self.velocity)
     }
 
@@ -77,17 +82,12 @@ impl Surface for Plane {
         std::array::from_fn(|d| foot[d] + chart[0] * a[d] + chart[1] * b[d])
     }
 
-    /// x, or what is left of it in the plane, and what completes it.
     fn tangents(&self, _x: [f64; 3]) -> [[f64; 3]; 2] {
-        let n = self.normal;
-        let start = if n[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
-        let along = sub(start, scale(n, dot(start, n)));
-        let along = scale(along, 1.0 / dot(along, along).sqrt());
-        [along, cross(n, along)]
+        super::tangents_of(self.normal)
     }
 
-    fn straight(&self) -> f64 {
-        f64::INFINITY
+    fn straight(&self) -> [f64; 2] {
+        [f64::INFINITY; 2]
     }
 
     fn constants(&self) -> Vec<(&'static str, f64)> {

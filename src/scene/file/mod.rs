@@ -10,6 +10,7 @@ mod output;
 mod parameters;
 mod relaxation;
 mod rim_motion;
+mod road;
 mod set_motion;
 mod stage;
 mod world;
@@ -107,7 +108,7 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
     let text = |key| table.get(key).map_or(Ok(String::new()), |item| item.text().map(Into::into));
     let body = body::body(&table.section("body", "[body]")?, table.get("road").is_some())?;
     let rim = table.get("rim").map(|item| world::rim(&item)).transpose()?;
-    let road = table.get("road").map(|item| world::road(&item)).transpose()?;
+    let road = table.get("road").map(|item| road::road(&item)).transpose()?;
     let gravity = table.vector_or_zero("gravity", &ACCELERATION)?;
     let holds = match table.get("hold") {
         Some(item) => {
