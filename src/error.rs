@@ -56,6 +56,14 @@ pub enum Error {
     )]
     Hourglass { step: u64, time: f64, share: f64, limit: f64 },
 
+    /// A body where its road has neither heights nor a border.
+    #[error(
+        "there is no road at ({:.6}, {:.6}, {:.6}) m, where the body is at t = {time:.6e} s: the map ends there, or a sample is missing; \
+         everything up to here is kept. A larger map, road.border = \"periodic\" or \"keep\", or another way of the rim helps",
+        at[0], at[1], at[2]
+    )]
+    OffRoad { time: f64, at: [f64; 3] },
+
     /// No adapter can run compute shaders.
     #[error(
         "no GPU adapter found ({detail}); install a Vulkan driver (Debian: mesa-vulkan-drivers) or use --engine cpu"
@@ -118,6 +126,7 @@ impl Error {
             | Error::NotFinite { .. }
             | Error::Unbalanced { .. }
             | Error::Hourglass { .. }
+            | Error::OffRoad { .. }
             | Error::NotSettled { .. }
             | Error::Claims { .. }
             | Error::Bench { .. } => 5,

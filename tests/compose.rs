@@ -26,7 +26,7 @@ fn roads() -> Vec<(Option<&'static str>, Option<Friction>)> {
 }
 
 /// Roads by their names in scenes.
-const ROADS: [&str; 3] = ["plane", "drum", "disk"];
+const ROADS: [&str; 6] = ["plane", "drum", "disk", "wave", "profile", "height-field"];
 
 /// How many ways there are to decide each thing, in the order of [`choice`]: five that an element is made of, the place of
 /// elements and nodes (table, lattice, lattice whose chains are joined), five that a node is made of, the precision.
@@ -404,7 +404,7 @@ struct Feature {
     chosen: fn(&Choice) -> bool,
 }
 
-const FEATURES: [Feature; 14] = [
+const FEATURES: [Feature; 17] = [
     Feature {
         name: "friction",
         files: &[
@@ -466,6 +466,27 @@ const FEATURES: [Feature; 14] = [
         instead: &["road/plane"],
         buffers: &[],
         chosen: |c| c.road == Some("disk"),
+    },
+    Feature {
+        name: "a cosine",
+        files: &["road/wave"],
+        instead: &["road/plane"],
+        buffers: &[],
+        chosen: |c| c.road == Some("wave"),
+    },
+    Feature {
+        name: "a profile",
+        files: &["road/profile"],
+        instead: &["road/plane"],
+        buffers: &[],
+        chosen: |c| c.road == Some("profile"),
+    },
+    Feature {
+        name: "a height field",
+        files: &["road/height_field"],
+        instead: &["road/plane"],
+        buffers: &[],
+        chosen: |c| c.road == Some("height-field"),
     },
     Feature {
         name: "viscosity",

@@ -119,6 +119,16 @@ fn the_guide_has_every_key_of_the_reader() {
     for road in ["drum", "disk"] {
         sections.push(("road.", keys("road.", &[&format!("road.shape={road}")])));
     }
+    for form in ["cosine", "cleat", "step", "points"] {
+        let form = format!("road.form={form}");
+        sections.push(("road.", keys("road.", &["road.shape=profile", &form])));
+    }
+    for source in
+        ["file=a.png", "file=a.csv", "file=a.asc", "file=a.crg", "generate=iso-8608", "generate=self-affine"]
+    {
+        let source = format!("road.{source}");
+        sections.push(("road.", keys("road.", &["road.shape=height-field", &source])));
+    }
     for kind in Friction::KINDS {
         sections.push(("friction.", keys("friction.", &[&format!("friction.law={}", kind.name)])));
     }

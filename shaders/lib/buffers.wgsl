@@ -50,6 +50,10 @@ var<storage, read_write> energies: array<vec4r>;
 var<storage, read_write> probes: array<vec4r>;
 var<storage, read_write> surface_states: array<vec4r>;
 
+// A road with an array: heights four by four, row by row; or lines, arcs and corners, two vectors each, and for equal shares of a
+// profile's length the first piece and one past the last.
+var<storage, read_write> road_shape: array<vec4r>;
+
 // A rim with free components.
 var<storage, read_write> rim_state: RimState;
 

@@ -33,6 +33,6 @@ fn road_velocity(x: vec3r) -> vec3r {
 
 // What a velocity turns in a step is not told from slip.
 fn road_told_squared() -> real {
-    let turn = abs(road_spin) * step.dt;
-    return rounding_squared() + turn * turn;
+    let angle = road_spin * step.dt;
+    return rounding_squared() + angle * angle;
 }

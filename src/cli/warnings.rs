@@ -1,7 +1,7 @@
 //! What a user should know of a scene or a run before believing its numbers.
 
 use hexroll::model::Model;
-use hexroll::model::mesh::Ring;
+use hexroll::model::mesh::{Mesh, Ring};
 use hexroll::output::summary::{HourglassShare, StageMeans, Summary, WorstBalance};
 use hexroll::output::{ContactScatter, Verdict};
 use hexroll::run::Totals;
@@ -13,6 +13,7 @@ pub fn of(scene: &Scene, model: &Model) -> Vec<String> {
         .into_iter()
         .flatten()
         .chain(coarse_ring(scene, model))
+        .chain(fine_road(scene, model))
         .collect()
 }
 
@@ -77,6 +78,49 @@ fn no_rows(scene: &Scene, model: &Model) -> Option<String> {
          (output.sample), in which a node may roll out of it, and a tone of the mesh is not told from chatter"
             .into()
     })
+}
+
+/// What lies between two surface nodes is not felt: a road must be coarser than the mesh.
+fn fine_road(scene: &Scene, model: &Model) -> Vec<String> {
+    /// Nodes that a wave needs: with fewer than four its height is a matter of where they are.
+    const A_WAVE: f64 = 4.0;
+    let texture = scene.road.as_ref().and_then(|road| road.texture());
+    let Some((texture, spacing)) = texture.zip(node_spacing(&model.mesh)) else { return Vec::new() };
+    let mm = |length: f64| format!("{:.4} mm", 1e3 * length);
+    let mut warnings = Vec::new();
+    if texture.shortest < A_WAVE * spacing {
+        warnings.push(format!(
+            "the road has waves or sides down to {}, surface nodes are {} apart (median edge): what lies between nodes is not felt",
+            mm(texture.shortest),
+            mm(spacing)
+        ));
+    }
+    if texture.steepest > 1.0 {
+        let angle = texture.steepest.atan().to_degrees();
+        warnings.push(format!(
+            "the road is up to {angle:.1} deg steep: a node meets such a side only where it comes down on it"
+        ));
+    }
+    if texture.sharpest < spacing {
+        warnings.push(format!(
+            "the road bends with a radius down to {}, below the {} between surface nodes: an edge between two nodes passes through it",
+            mm(texture.sharpest),
+            mm(spacing)
+        ));
+    }
+    warnings
+}
+
+/// Median length of the edges of facets [m]; none of a mesh without facets.
+fn node_spacing(mesh: &Mesh) -> Option<f64> {
+    let edges = mesh.facets.iter().flat_map(|f| (0..4).map(move |k| [f[k], f[(k + 1) % 4]]));
+    let length = |[a, b]: [u32; 2]| {
+        let [a, b] = [a, b].map(|n| mesh.nodes[n as usize]);
+        (0..3).map(|d| (a[d] - b[d]).powi(2)).sum::<f64>().sqrt()
+    };
+    let mut lengths: Vec<f64> = edges.map(length).collect();
+    let middle = lengths.len() / 2;
+    (!lengths.is_empty()).then(|| *lengths.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 /// A ring on a road is a polygon: its contact must span a few elements.

@@ -15,7 +15,7 @@ pub struct AdapterReport {
     /// Largest storage binding and buffer [bytes].
     pub storage_binding: u64,
     pub buffer: u64,
-    /// Storage buffers a compute stage may bind (passes bind up to 18, the kernel of small meshes 20).
+    /// Storage buffers a compute stage may bind (passes bind up to 19, the kernel of small meshes 21).
     pub storage_buffers: u32,
     /// Work groups a dispatch may have in one dimension.
     pub workgroups: u32,
@@ -30,7 +30,7 @@ pub struct AdapterReport {
 }
 
 /// Storage buffers bound by the largest kernel of the passes.
-pub const STORAGE_BUFFERS: u32 = 18;
+pub const STORAGE_BUFFERS: u32 = 19;
 
 fn instance() -> wgpu::Instance {
     wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env())

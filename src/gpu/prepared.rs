@@ -81,7 +81,7 @@ impl Prepared {
             mesh,
             choice,
             constants: upload::constants(&model, scene, &chains),
-            tables: upload::tables(&model, &chains, &choice),
+            tables: upload::tables(&model, &chains, &choice, scene.road.as_ref()),
             shape: match precision {
                 // A resident kernel has no place for what points remember.
                 Precision::F32 if choice.relaxes => None,

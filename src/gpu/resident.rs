@@ -6,7 +6,7 @@ use super::layout::{Real, Step, Wgsl};
 use std::collections::HashSet;
 
 /// Storage buffers that its kernel binds; on adapters with fewer the passes take all meshes.
-pub const RESIDENT_STORAGE_BUFFERS: u32 = 20;
+pub const RESIDENT_STORAGE_BUFFERS: u32 = 21;
 
 /// How a mesh is laid out in a work group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -65,7 +65,7 @@ pub struct Table {
 }
 
 /// Every table of a body: what bodies must have in common to share a dispatch, beside the kernels.
-pub fn tables(model: &Model, chains: &Chains, choice: &Choice) -> Vec<Table> {
+pub fn tables(model: &Model, chains: &Chains, choice: &Choice, road: Option<&Road>) -> Vec<Table> {
     let (mesh, real) = (&model.mesh, choice.precision.real());
     let table = |name, bytes: &[u8]| Table { name, bytes: bytes.to_vec(), uniform: None };
     let mut all = vec![
@@ -100,6 +100,10 @@ pub fn tables(model: &Model, chains: &Chains, choice: &Choice) -> Vec<Table> {
     if choice.held {
         let bits: Vec<u32> = mesh.held.iter().map(|&bits| u32::from(bits)).collect();
         all.push(table("held", bytemuck::cast_slice(&bits)));
+    }
+    let shape = road.map(Road::array).unwrap_or_default();
+    if !shape.is_empty() {
+        all.push(table("road_shape", &encode(real, &shape)));
     }
     all
 }

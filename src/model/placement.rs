@@ -17,11 +17,23 @@ pub fn placed(mesh: Mesh, scene: &Scene) -> Result<Mesh> {
     let Some(road) = &scene.road else { return Ok(mesh) };
     if scene.body.on_road {
         let shift = shift_onto(&mesh, road).ok_or_else(|| no_place(scene))?;
-        return Ok(mesh.moved(shift));
+        return over_road(mesh.moved(shift), road, scene);
     }
     match inside(&mesh, road) {
         Some(inside) => Err(begins_inside(scene, &mesh, &inside, shift_onto(&mesh, road))),
+        None => over_road(mesh, road, scene),
+    }
+}
+
+/// The mesh, if the road has heights wherever a node is low enough to meet them.
+fn over_road(mesh: Mesh, road: &Road, scene: &Scene) -> Result<Mesh> {
+    match mesh.surface.iter().map(|&n| mesh.nodes[n as usize]).find(|x| road.gap(*x).is_nan()) {
         None => Ok(mesh),
+        Some([x, y, z]) => {
+            let problem = format!("there is no road below the body at ({x:.6}, {y:.6}, {z:.6}) m");
+            let remedy = "write another road.point or road.border, or a larger map without holes there";
+            Err(error(scene, "body.offset", problem, remedy.into()))
+        }
     }
 }
 

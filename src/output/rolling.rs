@@ -125,7 +125,7 @@ impl Rolling {
             friction_loss_N,
             viscous_loss_N,
             other_loss_N,
-            loaded_radius_m: road.gap(place),
+            loaded_radius_m: road.height(place),
             effective_radius_m,
             free_rolling_radius_m: stage.rolls_freely().then_some(effective_radius_m),
             footprint_length_m: mean(|s| s.footprint_length_m),

@@ -43,7 +43,17 @@ impl Run<'_> {
         if !sets.is_empty() {
             self.observer.reactions(&row, &sets)?;
         }
+        self.is_on_the_road(window)?;
         Ok(row)
+    }
+
+    /// Ends a run whose body has come to where a height field has no height.
+    fn is_on_the_road(&self, window: &Window) -> Result<()> {
+        let Some(road) = &self.scene.road else { return Ok(()) };
+        match window.surface.iter().find(|s| road.gap(s.x).is_nan() && !s.x[0].is_nan()) {
+            Some(node) => Err(Error::OffRoad { time: self.state.totals.time, at: node.x }),
+            None => Ok(()),
+        }
     }
 
     /// Tells the observer that the steps so far, and `taken` more, have come to `time` within a window.

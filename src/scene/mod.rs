@@ -5,6 +5,7 @@
 
 mod document;
 pub mod file;
+pub mod heights;
 mod node_set;
 mod overrides;
 mod reader;

@@ -12,7 +12,7 @@ const DRAGGED: [&str; 4] = [
     "stage.0.rim.x={ velocity = \"0.2 m/s\", ramp = \"0.2 ms\" }",
 ];
 
-const ROADS: [(&str, &[&str]); 2] = [
+const ROADS: [(&str, &[&str]); 6] = [
     (
         "a drum inside",
         &["road.shape=drum", "road.radius=90 mm", "road.side=inside", "road.angular_velocity=-5 rad/s"],
@@ -20,6 +20,51 @@ const ROADS: [(&str, &[&str]); 2] = [
     (
         "a disk",
         &["road.shape=disk", "road.centre=[\"20 mm\", \"-60 mm\", \"0 m\"]", "road.angular_velocity=8 rad/s"],
+    ),
+    (
+        "a cosine at an angle",
+        &[
+            "road.shape=profile",
+            "road.form=cosine",
+            "road.wavelength=35 mm",
+            "road.amplitude=0.5 mm",
+            "road.angle=30 deg",
+        ],
+    ),
+    (
+        "cleats with round corners",
+        &[
+            "road.shape=profile",
+            "road.form=cleat",
+            "road.height=2 mm",
+            "road.length=9 mm",
+            "road.radius=1.5 mm",
+            "road.spacing=20 mm",
+        ],
+    ),
+    (
+        "a tilted step with sharp ones",
+        &[
+            "road.shape=profile",
+            "road.form=step",
+            "road.height=0.7 mm",
+            "road.normal=[0.05, 0.02, 1]",
+            "road.point=[\"15 mm\", \"0 m\", \"0 m\"]",
+        ],
+    ),
+    (
+        "a rough field",
+        &[
+            "road.shape=height-field",
+            "road.generate=self-affine",
+            "road.seed=3",
+            "road.length=64 mm",
+            "road.spacing=1 mm",
+            "road.shortest=8 mm",
+            "road.hurst=0.8",
+            "road.rms=0.3 mm",
+            "road.angle=10 deg",
+        ],
     ),
 ];
 

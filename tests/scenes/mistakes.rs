@@ -443,8 +443,8 @@ fn toml_syntax_errors_name_their_line() {
 fn what_comes_later_is_called_unavailable_not_unknown() {
     for (set, what, instead) in [
         ("road.shape=sphere", "road.shape: \"sphere\"", "\"plane\""),
-        ("road.shape=rough", "road.shape: \"rough\"", "\"plane\""),
-        ("road.roughness=1 mm", "road.roughness", "smooth"),
+        ("road.shape=rough", "road.shape: \"rough\"", "\"height-field\""),
+        ("road.roughness=1 mm", "road.roughness", "height-field"),
         ("friction.law=table", "friction.law: \"table\"", "\"coulomb\""),
         ("body.mesh.generator=import", "body.mesh.generator: \"import\"", "\"ring\" or \"block\""),
         ("stage.1.friction.coefficient=0.5", "stage.1.friction", "the same in every stage"),

@@ -1,13 +1,26 @@
 //! Rigid roads. A road answers all that anyone asks of it: gap, normal and velocity at a point, directions along which it
 //! does not change, axes of a footprint on it, the surface that pictures draw. Nobody else matches on its kind.
 
+mod base;
 mod disk;
 mod drum;
+mod height_field;
+mod nearest;
+mod pieces;
 mod plane;
+mod profile;
+mod samples;
+mod wave;
 
+pub use base::Base;
 pub use disk::Disk;
 pub use drum::Drum;
+pub use height_field::HeightField;
+pub use nearest::Smooth;
 pub use plane::Plane;
+pub use profile::{Profile, Shape};
+pub use samples::{Border, Samples};
+pub use wave::Wave;
 
 use super::scalar::{Real, Scalar};
 use super::tensor::{Vec3, axpy, cross, dot, scale, sub};
@@ -19,7 +32,7 @@ pub trait Surface: Clone + std::fmt::Debug + PartialEq + Send + Sync + 'static {
 
     /// Never more than the gap: what is asked of every node in every step. Where it is not negative a node is outside.
     fn bound<S: Scalar>(&self, x: Vec3<S>) -> S;
-    /// Distance of x from the surface along the normal, negative inside [m] (eq. 8).
+    /// Distance of x from the surface along the normal, negative inside [m] (eq. 8). High above a road with a shape it is the bound.
     fn gap<S: Real>(&self, x: Vec3<S>) -> S;
     /// Outward unit normal at the surface point nearest to x.
     fn normal<S: Real>(&self, x: Vec3<S>) -> Vec3<S>;
@@ -37,6 +50,15 @@ pub trait Surface: Clone + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// How fast its velocity turns where a node stays with it, in its own plane [rad/s].
     fn turning(&self) -> f64 {
         0.0
+    }
+
+    /// Height of x over the road's level, not over what is just below it [m].
+    fn height(&self, x: [f64; 3]) -> f64 {
+        self.gap(x)
+    }
+    /// How fine its shape is; none of one that a few elements see whole.
+    fn texture(&self) -> Option<Texture> {
+        None
     }
 
     /// Whether any of it moves.
@@ -60,8 +82,23 @@ pub trait Surface: Clone + std::fmt::Debug + PartialEq + Send + Sync + 'static {
 
     /// Values by the shaders' names.
     fn constants(&self) -> Vec<(&'static str, f64)>;
+    /// Numbers of the shaders' array `road_shape`, four a vector; none: the road has no such array.
+    fn array(&self) -> Vec<f64> {
+        Vec::new()
+    }
     /// One line for a person.
     fn description(&self) -> String;
+}
+
+/// How fine a road's shape is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Texture {
+    /// Shortest wave, or shortest side [m].
+    pub shortest: f64,
+    /// Largest slope; infinite at a wall.
+    pub steepest: f64,
+    /// Smallest radius of curvature; zero at a corner [m].
+    pub sharpest: f64,
 }
 
 /// Displacement within `dt` of a point that moves with `velocity` about a unit `axis` with `spin`: an arc [m].
@@ -89,6 +126,9 @@ pub enum Road {
     Plane(Plane),
     Drum(Drum),
     Disk(Disk),
+    Wave(Wave),
+    Profile(Profile),
+    HeightField(HeightField),
 }
 
 /// The same question to whatever road it is.
@@ -98,6 +138,9 @@ macro_rules! ask {
             Road::Plane($surface) => $answer,
             Road::Drum($surface) => $answer,
             Road::Disk($surface) => $answer,
+            Road::Wave($surface) => $answer,
+            Road::Profile($surface) => $answer,
+            Road::HeightField($surface) => $answer,
         }
     };
 }
@@ -120,6 +163,9 @@ impl Road {
             Road::Plane(plane) => *plane,
             Road::Drum(drum) => return drum.bound(x),
             Road::Disk(disk) => disk.plane,
+            Road::Wave(wave) => wave.base.lifted(wave.amplitude),
+            Road::Profile(profile) => profile.base.lifted(profile.shape.top()),
+            Road::HeightField(field) => field.base.lifted(field.samples.top()),
         };
         plane.bound(x)
     }
@@ -155,6 +201,9 @@ impl Road {
         tangents(x: [f64; 3]) -> [[f64; 3]; 2];
         straight() -> [f64; 2];
         constants() -> Vec<(&'static str, f64)>;
+        array() -> Vec<f64>;
+        height(x: [f64; 3]) -> f64;
+        texture() -> Option<Texture>;
         description() -> String;
     }
 
@@ -180,7 +229,7 @@ macro_rules! roads {
         })*
     };
 }
-roads!(Plane, Drum, Disk);
+roads!(Plane, Drum, Disk, Wave, Profile, HeightField);
 
 impl Road {
     /// Unit vectors along the surface at the point nearest to x: square to the unit vector `across` (of the axle), and to its

@@ -11,6 +11,7 @@ mod parameters;
 mod relaxation;
 mod rim_motion;
 mod road;
+mod rough;
 mod set_motion;
 mod stage;
 mod world;
@@ -78,7 +79,7 @@ impl Scene {
     /// The scene's text with its overrides, in canonical form (keys sorted, no comments): what [`Scene::hash`]
     /// is taken of. It reads back as the same scene.
     pub fn effective_text(text: &str, file: &str, overrides: &[String]) -> Result<String> {
-        Ok(document::canonical(&effective(text, file, overrides)?))
+        Ok(document::canonical(&rough::from_anywhere(effective(text, file, overrides)?, file)))
     }
 }
 
@@ -135,7 +136,7 @@ fn read(root: &Node, file: &str) -> Result<Scene> {
     let implicit = stages.iter().any(|s| matches!(s.method, super::Method::Implicit(_)));
     let scene = Scene {
         file: file.into(),
-        hash: hash(&document::canonical(root)),
+        hash: hash(document::canonical(&rough::by_content(root, file)?)),
         title: table.need("title", "\"one line that names the scene\"")?.text()?.into(),
         source: text("source")?,
         expected: text("expected")?,
@@ -161,6 +162,6 @@ fn safety(table: &Table) -> Result<f64> {
     table.number_or("safety", 0.9, Bound::Positive)
 }
 
-fn hash(text: &str) -> String {
+fn hash(text: impl AsRef<[u8]>) -> String {
     Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect()
 }

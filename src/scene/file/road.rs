@@ -1,5 +1,6 @@
 //! `[road]`: shapes that are flat or round.
 
+use super::rough;
 use crate::error::Result;
 use crate::physics::road::{Disk, Drum, Plane};
 use crate::scene::Road;
@@ -9,21 +10,26 @@ use crate::scene::units::{ANGULAR_VELOCITY, LENGTH, VELOCITY};
 /// A road may move in its plane only, up to this share of its speed (round-off of a tilted normal).
 const IN_PLANE: f64 = 1e-9;
 
-const PLANE_INSTEAD: &str = "use shape = \"plane\"";
-
 const LATER_ROADS: [Later; 4] = [
     ("cylinder", "use shape = \"drum\""),
-    ("sphere", PLANE_INSTEAD),
-    ("rough", PLANE_INSTEAD),
-    ("heights", PLANE_INSTEAD),
+    ("sphere", "use shape = \"plane\", or a height field of one"),
+    ("rough", "use shape = \"height-field\""),
+    ("heights", "use shape = \"height-field\""),
 ];
 
-const ROUGH: [Later; 1] = [("roughness", "remove the key: the road is smooth")];
+/// Roughness is a shape of its own.
+const ROUGH: [Later; 1] = [("roughness", "use shape = \"height-field\" with generate = \"self-affine\"")];
 
 pub(super) fn road(item: &Item) -> Result<Road> {
     let table = item.table()?;
     type Read = fn(&Table) -> Result<Road>;
-    let shapes: [(&str, Read); 3] = [("plane", plane), ("drum", drum), ("disk", disk)];
+    let shapes: [(&str, Read); 5] = [
+        ("plane", plane),
+        ("drum", drum),
+        ("disk", disk),
+        ("profile", rough::profile),
+        ("height-field", rough::height_field),
+    ];
     let read = table.get("shape").map_or(Ok(shapes[0].1), |shape| shape.choice(&shapes, &LATER_ROADS))?;
     read(&table)
 }
@@ -73,7 +79,7 @@ fn disk(table: &Table) -> Result<Road> {
 }
 
 /// A unit vector.
-fn direction(table: &Table, key: &str, default: [i32; 3]) -> Result<[f64; 3]> {
+pub(super) fn direction(table: &Table, key: &str, default: [i32; 3]) -> Result<[f64; 3]> {
     let Some(item) = table.get(key) else { return Ok(default.map(f64::from)) };
     let n = item.three("[0, 0, 1]", |entry| entry.number(Bound::Any))?;
     // Scaled first, so that no square overflows or vanishes.
