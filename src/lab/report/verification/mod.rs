@@ -8,6 +8,7 @@ mod cattaneo;
 mod constitutive;
 mod coupons;
 mod cylinder;
+mod hertz_drum;
 mod hertz_line;
 mod hertz_point;
 mod paper;
@@ -31,6 +32,7 @@ pub const CASES: &[Case] = &[
     bonded_strip::CASE,
     bar_impact::CASE,
     hertz_line::CASE,
+    hertz_drum::CASE,
     hertz_point::CASE,
     cattaneo::CASE,
     carter::CASE,
