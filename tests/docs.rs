@@ -167,6 +167,7 @@ fn the_guide_has_every_column_and_file() {
         "scene.toml",
         "contact_<k>.csv",
         "snapshot_<k>.vtu",
+        "report.html",
     ] {
         assert!(guide.contains(&format!("`{file}`")), "docs/guide/outputs.md does not have the file {file}");
     }

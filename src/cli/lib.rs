@@ -13,7 +13,9 @@ pub mod choose;
 mod compare;
 mod estimate;
 mod format;
+mod page;
 mod pictures;
+mod plot;
 mod progress;
 mod recorder;
 mod render;
@@ -45,6 +47,7 @@ const EXAMPLES: &str = "\
 Examples:
   hexroll check scenes/lat100_straight.toml
   hexroll run scenes/lat100_straight.toml
+  hexroll report run runs/lat100_straight
   hexroll render runs/lat100_straight --view side --field pressure
   hexroll run scenes/lat100_straight.toml --set body.element=full --out runs/full
   hexroll compare runs/lat100_straight runs/full
@@ -79,9 +82,12 @@ enum Command {
     /// Errors between two runs of one mesh, history by history and field by field
     #[command(after_help = compare::HELP)]
     Compare(compare::CompareArgs),
-    /// Measure what can be believed: claims against closed forms, limits of stability, speed against error
+    /// Pages: on a run, a study or a sweep, to send; or on what can be believed: claims, limits of stability, speed against error
     #[command(after_help = report::HELP)]
     Report(report::ReportArgs),
+    /// Overlay columns of several runs' histories in one plot
+    #[command(after_help = plot::HELP)]
+    Plot(plot::PlotArgs),
     /// List the GPU adapters, their limits, and the one that `--engine auto` takes
     Adapters(adapters::AdaptersArgs),
     /// Time every engine against the machine's measured limits
@@ -122,6 +128,7 @@ impl Cli {
             Command::Sweep(args) => sweep::execute(&args),
             Command::Compare(args) => compare::execute(&args),
             Command::Report(args) => report::execute(&args),
+            Command::Plot(args) => plot::execute(&args),
             Command::Adapters(args) => adapters::execute(&args),
             Command::Bench(args) => bench::execute(&args),
         }

@@ -5,18 +5,22 @@ use std::time::Instant;
 
 use clap::{Args, Subcommand};
 
-use super::terminal;
+use super::{page, terminal};
 use hexroll::gpu::Gpu;
 use hexroll::{Error, Result};
 use hexroll_lab::bench::machine::Machine;
 use hexroll_lab::report::accuracy::{self, Matrix, Measured, Problem};
-use hexroll_lab::report::page::{self, Finding};
+use hexroll_lab::report::page::{self as claims, Finding};
 use hexroll_lab::report::{Case, parity, stability, verification};
 
 pub const HELP: &str = "\
-Nothing is cached: every number is computed now, on this machine, and the page says on which.
+`verification`, `accuracy`, `parity` and `stability` measure this program: nothing is cached, every number is computed
+now, on this machine, and the page says on which. `run`, `study` and `sweep` make a page of what a folder holds, finished
+or not, and compute nothing.
 
 Examples:
+  hexroll report run runs/lat100_straight       # writes runs/lat100_straight/report.html
+  hexroll report study runs/study --out mesh.html
   hexroll report verification
   hexroll report verification --only hertz_line --only hertz_point --out -
   hexroll report verification --everyday
@@ -40,6 +44,12 @@ enum Kind {
     Parity(CasesArgs),
     /// Hard cases and the largest safety factor each survives: docs/stability.md
     Stability(CasesArgs),
+    /// A page on a run, from its folder: one HTML file to send, to print, to open without a network
+    Run(page::RunPageArgs),
+    /// The same on a mesh study, with its curves
+    Study(page::BatchPageArgs),
+    /// The same on a sweep
+    Sweep(page::BatchPageArgs),
 }
 
 /// Rows of a measurement that has not ended.
@@ -106,6 +116,9 @@ pub fn execute(args: &ReportArgs) -> Result<()> {
             cases(&CasesArgs { out, ..args.clone() }, parity::CASES, "Parity", &intro, "parity")
         }
         Kind::Stability(args) => hard_cases(args),
+        Kind::Run(args) => page::run(args),
+        Kind::Study(args) => page::study(args),
+        Kind::Sweep(args) => page::sweep(args),
     }
 }
 
@@ -114,7 +127,7 @@ fn cases(args: &CasesArgs, all: &[Case], title: &str, intro: &str, kind: &str) -
     let findings: Vec<Finding> = chosen.into_iter().map(find).collect();
     let whole = args.only.is_empty() && !args.everyday;
     let command = format!("hexroll report {kind}{}", if args.everyday { " --everyday" } else { "" });
-    let text = page::page(title, intro, &command, &findings);
+    let text = claims::page(title, intro, &command, &findings);
     // A part of the cases does not replace the page of all.
     let default = if whole { PathBuf::from(format!("docs/{kind}.md")) } else { PathBuf::from("-") };
     write(args.out.as_deref().unwrap_or(&default), &text)?;
@@ -154,11 +167,11 @@ fn hard_cases(args: &CasesArgs) -> Result<()> {
          work (round-off) and of the stored energy (the step). The safety factor is raised through 0.97, 1.03, 1.1, \
          1.3 until a run fails; where 0.9 fails, 0.45 and 0.2 are tried. A run that ends with energies that do not add \
          up counts as a failure of the program, not of the scene.\n\n{}\n{}",
-        page::table(&HARD_HEAD, rows),
-        page::sections(&findings)
+        claims::table(&HARD_HEAD, rows),
+        claims::sections(&findings)
     );
     let intro = "Where the program stops being stable, and what it says then.";
-    let text = page::titled("Stability", intro, "hexroll report stability", &body);
+    let text = claims::titled("Stability", intro, "hexroll report stability", &body);
     let whole = args.only.is_empty() && !args.everyday;
     let default = if whole { PathBuf::from("docs/stability.md") } else { PathBuf::from("-") };
     write(args.out.as_deref().unwrap_or(&default), &text)?;

@@ -12,7 +12,8 @@ use super::recorder::listen_for_interrupts;
 use super::terminal;
 use hexroll::output::folder::write_whole;
 use hexroll::scene::Scene;
-use hexroll::study::axis::Axis;
+use hexroll::study::axis::{Axis, Value};
+use hexroll::study::index::{self, Index, Place, Planned};
 use hexroll::study::report::{Run, Study};
 use hexroll::{Error, Result};
 
@@ -77,6 +78,7 @@ pub fn execute(args: &StudyArgs) -> Result<()> {
         cases.extend(of_scene(args, file, &axis, &engine)?);
     }
     listen_for_interrupts()?;
+    index(args, &axis, &cases).write(&args.out, index::STUDY)?;
     let summaries = run_all(&cases, side_by_side(args.jobs, &engine))?;
     let report = args.report.clone().unwrap_or_else(|| args.out.join("study.md"));
     let mut studies = Vec::new();
@@ -97,6 +99,29 @@ pub fn execute(args: &StudyArgs) -> Result<()> {
     write(&studies, &report)
 }
 
+/// What is to be run, for the folder.
+fn index(args: &StudyArgs, axis: &Axis, cases: &[Case]) -> Index {
+    let place = |(case, value): (&Case, &Value)| Place {
+        folder: below(&args.out, &case.out),
+        label: label(axis, value, &case.scene),
+        size: axis.size(value),
+        ..Place::default()
+    };
+    let scene = |(file, cases): (&PathBuf, &[Case])| Planned {
+        name: stem(file),
+        title: cases[0].scene.title.clone(),
+        axes: vec![axis.label()],
+        runs: cases.iter().zip(&axis.values).map(place).collect(),
+    };
+    let scenes = args.scenes.iter().zip(cases.chunks(axis.values.len())).map(scene).collect();
+    Index { command: typed(), version: env!("CARGO_PKG_VERSION").into(), scenes }
+}
+
+/// A run's folder as its index has it.
+pub fn below(dir: &Path, run: &Path) -> String {
+    run.strip_prefix(dir).unwrap_or(run).to_string_lossy().into_owned()
+}
+
 fn of_scene(args: &StudyArgs, file: &Path, axis: &Axis, engine: &EngineArgs) -> Result<Vec<Case>> {
     let scene = Scene::load(file, &args.sets)?;
     let case = |value| {
@@ -109,7 +134,7 @@ fn of_scene(args: &StudyArgs, file: &Path, axis: &Axis, engine: &EngineArgs) -> 
 }
 
 /// What a table calls a run: its mesh, or the value.
-fn label(axis: &Axis, value: &hexroll::study::axis::Value, scene: &Scene) -> String {
+fn label(axis: &Axis, value: &Value, scene: &Scene) -> String {
     if axis.key != "refine" {
         return value.text.clone();
     }
@@ -140,9 +165,13 @@ fn write(studies: &[Study], report: &Path) -> Result<()> {
 
 /// The command and the program, for the head of a report.
 pub fn made_by() -> String {
+    format!("`{}`, version {}.\n\n", typed(), env!("CARGO_PKG_VERSION"))
+}
+
+/// The command as it was typed.
+pub fn typed() -> String {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let version = env!("CARGO_PKG_VERSION");
-    format!("`hexroll {}`, version {version}.\n\n", arguments.join(" "))
+    format!("hexroll {}", arguments.join(" "))
 }
 
 /// Writes a text; its folder is made if it is missing.

@@ -7,10 +7,11 @@ use clap::Args;
 use super::batch::{Case, run_all, run_together, settled, side_by_side};
 use super::choose::{EngineArgs, EngineChoice};
 use super::recorder::listen_for_interrupts;
-use super::study::{axis, made_by, save_picture, save_text, stem};
+use super::study::{axis, below, made_by, save_picture, save_text, stem, typed};
 use super::terminal;
 use hexroll::scene::Scene;
 use hexroll::study::axis::{Axis, Value};
+use hexroll::study::index::{self, Index, Place, Planned};
 use hexroll::study::sweep::{Point, Sweep};
 use hexroll::{Error, Precision, Result};
 
@@ -98,13 +99,14 @@ pub fn execute(args: &SweepArgs) -> Result<()> {
     };
     let cases = combinations.iter().map(case).collect::<Result<Vec<_>>>()?;
     listen_for_interrupts()?;
+    index(args, &scene, &out, &combinations, &cases).write(&out, index::SWEEP)?;
     let summaries = if args.ensemble {
         run_together(&cases, &engine)?
     } else {
         run_all(&cases, side_by_side(args.jobs, &engine))?
     };
     let point = |(i, (values, summary)): (usize, (&Vec<&Value>, _))| Point {
-        values: values.iter().map(|v| v.text.clone()).collect(),
+        values: texts(values),
         x: values[0].number.unwrap_or(i as f64),
         summary,
     };
@@ -122,6 +124,28 @@ pub fn execute(args: &SweepArgs) -> Result<()> {
     save_text(&text, &report)?;
     save_text(&sweep.csv(), &report.with_extension("csv"))?;
     terminal::print(&format!("{text}\nwritten: {} and files of its name\n", report.display()))
+}
+
+/// What is to be run, for the folder `out`.
+fn index(args: &SweepArgs, scene: &Scene, out: &Path, combinations: &[Vec<&Value>], cases: &[Case]) -> Index {
+    let place = |(i, (values, case)): (usize, (&Vec<&Value>, &Case))| Place {
+        folder: below(out, &case.out),
+        label: case.name.clone(),
+        values: texts(values),
+        x: values[0].number.unwrap_or(i as f64),
+        size: None,
+    };
+    let planned = Planned {
+        name: stem(&args.scene),
+        title: scene.title.clone(),
+        axes: args.over.iter().map(Axis::label).collect(),
+        runs: combinations.iter().zip(cases).enumerate().map(place).collect(),
+    };
+    Index { command: typed(), version: env!("CARGO_PKG_VERSION").into(), scenes: vec![planned] }
+}
+
+fn texts(values: &[&Value]) -> Vec<String> {
+    values.iter().map(|v| v.text.clone()).collect()
 }
 
 /// Every combination of the axes' values, the first axis running fastest.

@@ -22,7 +22,7 @@ pub fn text(summary: &Summary, out: &Path, files: &str) -> String {
     text
 }
 
-fn lines(s: &Summary) -> Vec<(&'static str, String)> {
+pub fn lines(s: &Summary) -> Vec<(&'static str, String)> {
     let device = s.adapter.as_deref().map_or(format!("{} threads", s.threads), |a| format!("on {a}"));
     let balance = |b: &WorstBalance| match b.share_of_largest_term {
         // A share of what is round-off too says nothing.
@@ -103,7 +103,7 @@ fn rolling(stage: &StageMeans) -> String {
     text
 }
 
-fn figures(r: &Rolling) -> Vec<(&'static str, String)> {
+pub fn figures(r: &Rolling) -> Vec<(&'static str, String)> {
     let newtons = |f: f64| format!("{} N", four_digits(f));
     let mm = |l: f64| format!("{} mm", four_digits(1e3 * l));
     let trail = r.pneumatic_trail_m.map_or(String::new(), |t| format!(", pneumatic trail {}", mm(t)));
@@ -154,7 +154,7 @@ fn figures(r: &Rolling) -> Vec<(&'static str, String)> {
     ]
 }
 
-fn scatter(c: &ContactScatter) -> String {
+pub fn scatter(c: &ContactScatter) -> String {
     let verdict = match c.verdict {
         Verdict::Smooth => "smooth",
         Verdict::Tone => "hums with the mesh",
@@ -172,7 +172,7 @@ fn scatter(c: &ContactScatter) -> String {
 }
 
 /// Four digits or so, without an exponent where people expect none.
-fn four_digits(value: f64) -> String {
+pub fn four_digits(value: f64) -> String {
     match value.abs() {
         0.0 => "0".into(),
         size if !(1e-3..1e6).contains(&size) => format!("{value:.2e}"),

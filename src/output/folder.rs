@@ -13,12 +13,18 @@ pub const REACTIONS: &str = "reactions.csv";
 pub const SCENE: &str = "scene.toml";
 pub const PVD: &str = "run.pvd";
 pub const SUMMARY: &str = "summary.json";
+pub const REPORT: &str = "report.html";
 
 /// Ending of a file that is not complete yet.
 const PART: &str = ".part";
 
 pub fn snapshot_name(k: usize) -> String {
     format!("snapshot_{k}.vtu")
+}
+
+/// A history at a high rate; `format`: `npz` or `uff`.
+pub fn history_name(name: &str, format: &str) -> String {
+    format!("history_{name}.{format}")
 }
 
 pub fn contact_name(k: usize) -> String {
@@ -62,6 +68,16 @@ pub fn claim(dir: &Path) -> Result<File> {
     Ok(lock)
 }
 
+/// Whether `dir` is a run's folder, and whether a run is writing to it now.
+pub fn is_run(dir: &Path) -> bool {
+    dir.join(MARKER).exists()
+}
+
+pub fn is_being_written(dir: &Path) -> bool {
+    let marker = File::open(dir.join(MARKER));
+    marker.is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
+}
+
 fn names(dir: &Path) -> Result<Vec<String>> {
     let entries = fs::read_dir(dir).map_err(Error::io(dir, "list this folder"))?;
     entries
@@ -78,10 +94,49 @@ fn is_ours(name: &str) -> bool {
         middle.is_some_and(|k| !k.is_empty() && k.bytes().all(|b| b.is_ascii_digit()))
     };
     let picture = || ["body", "footprint"].iter().any(|p| name.starts_with(p)) && name.ends_with(".png");
-    [HISTORY, IMPLICIT, REACTIONS, SCENE, PVD, SUMMARY].contains(&name)
+    let any = |prefixes: &[&str], endings: &[&str]| {
+        prefixes.iter().any(|p| name.starts_with(p)) && endings.iter().any(|e| name.ends_with(e))
+    };
+    let histories = any(&["history_"], &[".npz", ".uff"]) || any(&["spectrum_", "bands_"], &[".csv", ".png"]);
+    [HISTORY, IMPLICIT, REACTIONS, SCENE, PVD, SUMMARY, REPORT].contains(&name)
         || numbered("snapshot_", ".vtu")
         || numbered("contact_", ".csv")
         || picture()
+        || histories
+}
+
+/// Names of the histories that a folder has as `.npz`.
+///
+/// # Errors
+/// [`Error::Io`].
+pub fn histories(dir: &Path) -> Result<Vec<String>> {
+    let name = |file: String| Some(file.strip_prefix("history_")?.strip_suffix(".npz")?.to_string());
+    let mut found: Vec<String> = names(dir)?.into_iter().filter_map(name).collect();
+    found.sort();
+    Ok(found)
+}
+
+/// A picture of a snapshot in a run's folder.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PictureFile {
+    /// Without number and ending: `body_pressure`.
+    pub name: String,
+    pub snapshot: usize,
+    pub path: PathBuf,
+}
+
+/// Pictures of snapshots in a folder, by name and number.
+///
+/// # Errors
+/// [`Error::Io`].
+pub fn pictures(dir: &Path) -> Result<Vec<PictureFile>> {
+    let picture = |file: String| {
+        let (name, number) = file.strip_suffix(".png").filter(|_| is_ours(&file))?.rsplit_once('_')?;
+        Some(PictureFile { name: name.into(), snapshot: number.parse().ok()?, path: dir.join(&file) })
+    };
+    let mut found: Vec<PictureFile> = names(dir)?.into_iter().filter_map(picture).collect();
+    found.sort_by(|a, b| (&a.name, a.snapshot).cmp(&(&b.name, b.snapshot)));
+    Ok(found)
 }
 
 /// Writes a file so that it appears under its name only when it is complete; what a failure leaves is removed.

@@ -1,6 +1,10 @@
-//! Plots: curves with error bars in panels, on the flat canvas of the pictures. No GPU is needed.
+//! Plots: curves with error bars in panels, on the flat canvas of the pictures ([`figure`]) and as SVG ([`svg`]); pages of
+//! HTML that hold them ([`page`]). No GPU is needed.
 
+mod markdown;
+pub mod page;
 mod panel;
+pub mod svg;
 mod ticks;
 
 use image::RgbaImage;
@@ -48,7 +52,7 @@ mod tests {
             mark: Mark::Line,
         };
         let bar = Series { label: "b".into(), points: vec![[4.0, 30.0]], bars: vec![10.0], mark: Mark::Dots };
-        Panel { title: "t".into(), x: "x".into(), y: "y".into(), series: vec![line, bar] }
+        Panel { title: "t".into(), x: "x".into(), y: "y".into(), series: vec![line, bar], log_x: false }
     }
 
     #[test]
@@ -85,7 +89,8 @@ mod tests {
         panel.series[0].points.push([f64::NAN, 1.0]);
         panel.series[0].points.push([1.0, f64::INFINITY]);
         assert!(figure("", &[panel], 1).is_ok());
-        let empty = Panel { title: "t".into(), x: "x".into(), y: "y".into(), series: Vec::new() };
+        let empty =
+            Panel { title: "t".into(), x: "x".into(), y: "y".into(), series: Vec::new(), log_x: false };
         assert!(figure("", &[empty], 1).is_ok());
     }
 }

@@ -14,6 +14,23 @@ pub fn ticks(low: f64, high: f64, wanted: f64) -> (Vec<f64>, usize) {
     ((first..=last).map(|i| i as f64 * step + 0.0).collect(), decimals)
 }
 
+/// Ticks at 1, 2 and 5 times every power of ten between two logarithms, with their texts.
+pub fn decades(low: f64, high: f64) -> Vec<(f64, String)> {
+    let powers = low.floor() as i32..=high.ceil() as i32;
+    let all = powers.flat_map(|power| [1.0, 2.0, 5.0].map(|m| (m * 10f64.powi(power), power)));
+    let inside = all.filter(|(v, _)| (low..=high).contains(&v.log10()));
+    inside
+        .map(|(v, power)| {
+            let text = match power {
+                6.. => format!("{v:e}"),
+                3..6 => format!("{}k", v / 1e3),
+                _ => format!("{v:.*}", (-power).max(0) as usize),
+            };
+            (v, text)
+        })
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -25,5 +42,12 @@ mod tests {
         assert_eq!((at, decimals), (vec![-0.01, 0.0, 0.01, 0.02], 2));
         assert_eq!(ticks(199.1, 200.9, 4.0).0, [199.5, 200.0, 200.5]);
         assert_eq!(ticks(1e6, 3e6, 4.0).1, 0);
+    }
+
+    #[test]
+    fn a_logarithmic_axis_has_ones_twos_and_fives() {
+        let texts: Vec<String> = decades(2.0, 3.75).into_iter().map(|(_, text)| text).collect();
+        assert_eq!(texts, ["100", "200", "500", "1k", "2k", "5k"]);
+        assert_eq!(decades(-1.0, 0.0)[1].1, "0.2");
     }
 }

@@ -4,6 +4,7 @@
 pub mod axis;
 pub mod convergence;
 pub mod curves;
+pub mod index;
 pub mod quantity;
 pub mod report;
 pub mod sweep;

@@ -145,8 +145,12 @@ impl Study {
     /// # Errors
     /// [`Error::Picture`](crate::Error::Picture).
     pub fn picture(&self) -> Result<image::RgbaImage> {
-        let panels: Vec<Panel> = self.rows().iter().map(|row| self.panel(row)).collect();
-        figure(&format!("{}: means over {}", self.name, self.axis), &panels, 3)
+        figure(&format!("{}: means over {}", self.name, self.axis), &self.panels(), 3)
+    }
+
+    /// The panels of the picture.
+    pub fn panels(&self) -> Vec<Panel> {
+        self.rows().iter().map(|row| self.panel(row)).collect()
     }
 
     fn panel(&self, row: &Row) -> Panel {
@@ -168,7 +172,13 @@ impl Study {
             Convergence::Constant { .. } | Convergence::TooFew => row.quantity.symbol.into(),
         };
         let x = if self.runs.iter().all(|r| r.size.is_some()) { "relative size" } else { "run" };
-        Panel { title, x: x.into(), y: format!("{} [{}]", row.quantity.symbol, row.quantity.unit), series }
+        Panel {
+            title,
+            x: x.into(),
+            y: format!("{} [{}]", row.quantity.symbol, row.quantity.unit),
+            series,
+            ..Panel::default()
+        }
     }
 }
 

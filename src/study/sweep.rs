@@ -148,8 +148,12 @@ impl Sweep {
     /// # Errors
     /// [`Error::Picture`](crate::Error::Picture).
     pub fn picture(&self) -> Result<image::RgbaImage> {
-        let panels: Vec<Panel> = present(&self.means()).iter().map(|q| self.panel(q)).collect();
-        figure(&format!("{} over {}", self.name, self.axes[0]), &panels, 3)
+        figure(&format!("{} over {}", self.name, self.axes[0]), &self.panels(), 3)
+    }
+
+    /// The panels of the picture.
+    pub fn panels(&self) -> Vec<Panel> {
+        present(&self.means()).iter().map(|q| self.panel(q)).collect()
     }
 
     fn panel(&self, quantity: &Quantity) -> Panel {
@@ -164,6 +168,7 @@ impl Sweep {
             x: self.axes[0].clone(),
             y: format!("{} [{}]", quantity.symbol, quantity.unit),
             series: series.collect(),
+            ..Panel::default()
         }
     }
 }

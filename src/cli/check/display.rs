@@ -55,37 +55,37 @@ impl Check {
 
 impl Display for Body {
     fn fmt(&self, f: &mut Formatter) -> Result {
-        let mut line = |name: &str, value: String| writeln!(f, "  {name:<14} {value}");
-        line("mesh", self.mesh.clone())?;
+        self.lines().iter().try_for_each(|(name, value)| writeln!(f, "  {name:<14} {value}"))
+    }
+}
+
+impl Body {
+    /// What is said of the body: names, and what they are; a line without a name goes on with the last.
+    pub fn lines(&self) -> Vec<(&'static str, String)> {
         let [e, n] = [self.elements, self.nodes].map(|n| count(n as u64));
-        line("", format!("{e} elements of {}, {n} nodes", plural(self.shape_classes, "shape")))?;
         let rim =
             self.rim.as_ref().map_or("no rim".into(), |rim| format!("{} of the rim ({rim})", self.rim_nodes));
-        line("", format!("{} surface nodes, {rim}", self.surface_nodes))?;
         let around = match self.around {
             Some(n) => format!("{n} elements round the axle"),
             None => "no rows of elements round the axle".into(),
         };
-        line("", format!("{around}; node sets: {}", self.node_sets.join(", ")))?;
-        line("element", self.element.clone())?;
-        line("mass", format!("{}: {}", si(1e3 * self.mass_kg, "g"), self.mass_lumping))?;
-        line("law", format!("{}: {}", self.law, self.constants))?;
         let (G, kappa, E) = (self.shear_modulus_Pa, self.bulk_modulus_Pa, self.youngs_modulus_Pa);
-        line(
-            "",
-            format!(
-                "G = {}, kappa = {}, E = {}, nu = {:.4}",
-                si(G, "Pa"),
-                si(kappa, "Pa"),
-                si(E, "Pa"),
-                self.poisson_ratio
-            ),
-        )?;
+        let [G, kappa, E] = [G, kappa, E].map(|modulus| si(modulus, "Pa"));
         let (c, s) = (self.wave_speed_m_s, self.shear_wave_speed_m_s);
-        line(
-            "waves",
-            format!("{c:.1} m/s of dilatation, {s:.1} m/s of shear; rho = {} kg/m3", self.density_kg_m3),
-        )
+        vec![
+            ("mesh", self.mesh.clone()),
+            ("", format!("{e} elements of {}, {n} nodes", plural(self.shape_classes, "shape"))),
+            ("", format!("{} surface nodes, {rim}", self.surface_nodes)),
+            ("", format!("{around}; node sets: {}", self.node_sets.join(", "))),
+            ("element", self.element.clone()),
+            ("mass", format!("{}: {}", si(1e3 * self.mass_kg, "g"), self.mass_lumping)),
+            ("law", format!("{}: {}", self.law, self.constants)),
+            ("", format!("G = {G}, kappa = {kappa}, E = {E}, nu = {:.4}", self.poisson_ratio)),
+            (
+                "waves",
+                format!("{c:.1} m/s of dilatation, {s:.1} m/s of shear; rho = {} kg/m3", self.density_kg_m3),
+            ),
+        ]
     }
 }
 

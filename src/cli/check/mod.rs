@@ -6,7 +6,7 @@ mod curves;
 mod display;
 mod memory;
 mod programs;
-mod stages;
+pub mod stages;
 
 use clap::Args;
 use serde::Serialize;
@@ -17,7 +17,7 @@ use super::estimate::{self, Steps};
 use super::scene::SceneArgs;
 use super::terminal;
 use super::warnings;
-use body::Body;
+pub use body::Body;
 use curves::Curves;
 use hexroll::engine::Engine;
 use hexroll::gpu::adapters;
@@ -78,10 +78,10 @@ struct Check {
 
 /// A part of the physics that a scene may leave out.
 #[derive(Debug, Serialize)]
-struct Piece {
-    name: &'static str,
+pub struct Piece {
+    pub name: &'static str,
     /// What is modelled; none: left out, with all of its code.
-    detail: Option<String>,
+    pub detail: Option<String>,
 }
 
 /// How long a run would take.

@@ -8,6 +8,7 @@ mod comparing;
 mod ending_early;
 mod memory;
 mod mistakes;
+mod pages;
 mod program;
 mod reporting;
 mod running;
