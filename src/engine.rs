@@ -179,6 +179,24 @@ pub struct State {
     pub v: Vec<[f64; 3]>,
 }
 
+/// A node whose state is kept after every step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Watched {
+    pub node: u32,
+    /// Its number among the mesh's surface nodes, if it can touch a road.
+    pub surface: Option<u32>,
+}
+
+/// A watched node after a step: absolute, SI.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct NodeState {
+    pub x: [f64; 3],
+    /// Half a step before.
+    pub v: [f64; 3],
+    /// Of the road on the node, summed since the last sample [N s].
+    pub impulse: [f64; 3],
+}
+
 /// Who computes.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize)]
 pub struct EngineInfo {
@@ -207,6 +225,24 @@ pub trait Engine {
     /// Puts everything where another solver has taken it: positions, velocities, rim coordinates and the rates of the
     /// free ones.
     fn set_state(&mut self, state: &State, rim: &Coordinates, rim_rate: &Coordinates) -> Result<()>;
+    /// From now on keeps the state of these nodes after every step; none: nothing is kept, which is so at first.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`](crate::Error::Unsupported) from an engine that cannot.
+    fn watch(&mut self, nodes: &[Watched]) -> Result<()> {
+        if nodes.is_empty() {
+            return Ok(());
+        }
+        let engine = self.info().engine;
+        Err(crate::Error::Unsupported {
+            what: format!("[[output.history]] on this {engine} engine"),
+            instead: "take another engine, or leave the histories out".into(),
+        })
+    }
+    /// The states that were kept since the last call, shape `[steps, watched nodes]`.
+    fn watched(&mut self) -> Vec<NodeState> {
+        Vec::new()
+    }
     /// Internal force [N] at any positions and velocities, by the engine's own force pass; the state is not touched.
     fn force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>>;
 }

@@ -19,6 +19,7 @@ pub mod record;
 pub mod render;
 pub mod run;
 pub mod scene;
+pub mod signal;
 pub mod study;
 
 pub use error::{Error, Result};

@@ -1,5 +1,7 @@
 //! What a run produces, whatever engine computed it: history rows and whole fields, SI, f64.
 
+use crate::scene::history::Format;
+
 /// One row of the history: a window of `output.sample` seconds that ends at `time`.
 ///
 /// Forces and moments are impulses over the window divided by its length, from every step.
@@ -250,4 +252,41 @@ pub struct NewtonRow {
     pub inner_iterations: usize,
     /// Share of the correction that was applied; 0 where there was none.
     pub share: f64,
+}
+
+/// A history at a high rate: `history_<name>.npz`. Times are whole numbers of periods from the start of the simulation; where a
+/// stage is not taken down they leave it out.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct History {
+    pub name: String,
+    /// [Hz]
+    pub rate: f64,
+    /// Whether the places go with the material.
+    pub turning: bool,
+    /// By place: the mesh's node (that stands there in the reference shape; of points the nearest corner), and of the reference
+    /// shape position [m], unit normal outwards (zero inside the body), area [m2] (of faces of the history).
+    pub nodes: Vec<u32>,
+    pub positions: Vec<[f64; 3]>,
+    pub normals: Vec<[f64; 3]>,
+    pub areas: Vec<f64>,
+    /// Outer faces between places, counter-clockwise seen from outside.
+    pub faces: Vec<[u32; 4]>,
+    /// [s]
+    pub times: Vec<f64>,
+    pub values: Vec<Values>,
+    /// The road's force on the whole body [N], shape `[times, 3]`; none without a road.
+    pub road_force: Option<Vec<f32>>,
+    /// Files that it is written to.
+    pub formats: Vec<Format>,
+}
+
+/// A quantity of a history.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Values {
+    pub name: &'static str,
+    pub unit: &'static str,
+    /// Numbers a place.
+    pub components: usize,
+    /// Shape `[times, places, components]`.
+    pub values: Vec<f32>,
 }

@@ -77,7 +77,9 @@ fn deciding(kernel: Kernel) -> Vec<usize> {
         Kernel::Rim => [5, 8, 11].into(),
         Kernel::Gather => [5, 11].into(),
         Kernel::Resident => (0..12).collect(),
-        Kernel::SurfaceState | Kernel::Reduce | Kernel::Rebase | Kernel::CheckSums => [11].into(),
+        Kernel::SurfaceState | Kernel::Watch | Kernel::Reduce | Kernel::Rebase | Kernel::CheckSums => {
+            [11].into()
+        }
     }
 }
 

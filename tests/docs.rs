@@ -66,6 +66,9 @@ spin = { slip = 0.1, free_radius = "38 mm" }
 camber = { angle = "1 deg", ramp = "5 ms" }
 [output]
 sample = "1 ms"
+[[output.history]]
+name = "tread"
+nodes = "outer"
 "#;
 
 /// Keys that the section takes, as the answer to one that it does not know lists them (the one of these changes, or of the scene).
@@ -109,6 +112,7 @@ fn the_guide_has_every_key_of_the_reader() {
         "stage.1.rim.spin.",
         "stage.1.rim.steer.",
         "output.",
+        "output.history.0.",
     ]
     .map(|section| (section, keys(section, &[])))
     .into();
@@ -167,6 +171,8 @@ fn the_guide_has_every_column_and_file() {
         "scene.toml",
         "contact_<k>.csv",
         "snapshot_<k>.vtu",
+        "history_<name>.npz",
+        "history_<name>.uff",
         "report.html",
     ] {
         assert!(guide.contains(&format!("`{file}`")), "docs/guide/outputs.md does not have the file {file}");

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::progress::Display;
 use hexroll::output::RunWriter;
-use hexroll::record::{NewtonRow, Reaction, Sample, Snapshot};
+use hexroll::record::{History, NewtonRow, Reaction, Sample, Snapshot};
 use hexroll::run::{Observer, Progress, Totals};
 use hexroll::{Error, Result};
 
@@ -37,6 +37,8 @@ pub struct Recorder<'w, 'm> {
     /// Every row so far.
     pub history: Vec<Sample>,
     pub snapshots: usize,
+    /// Names of the files of histories at a high rate.
+    pub files: Vec<String>,
     /// As of the last row: what is known of a run that fails.
     pub totals: Totals,
     /// Wall time spent on writing and showing.
@@ -46,7 +48,7 @@ pub struct Recorder<'w, 'm> {
 impl<'w, 'm> Recorder<'w, 'm> {
     pub fn new(writer: &'w mut RunWriter<'m>, display: Display) -> Self {
         let (history, totals, output) = (Vec::new(), Totals::default(), Duration::ZERO);
-        Recorder { writer, display, history, snapshots: 0, totals, output }
+        Recorder { writer, display, history, snapshots: 0, files: Vec::new(), totals, output }
     }
 
     /// Ends the display.
@@ -76,6 +78,15 @@ impl Observer for Recorder<'_, '_> {
         let start = Instant::now();
         self.writer.snapshot(snapshot, stage)?;
         self.snapshots += 1;
+        self.output += start.elapsed();
+        Ok(())
+    }
+
+    fn histories(&mut self, histories: Vec<History>) -> Result<()> {
+        let start = Instant::now();
+        for history in &histories {
+            self.files.extend(self.writer.history(history)?);
+        }
         self.output += start.elapsed();
         Ok(())
     }

@@ -121,9 +121,12 @@ pub fn simulate_with(
     };
     let mut report = Report { scene, model, info, reason, out, summary: Summary::default() };
     report.fill(&recorder, &totals, start.elapsed(), error.as_ref());
-    let snapshots = recorder.snapshots;
+    let (snapshots, files) = (recorder.snapshots, std::mem::take(&mut recorder.files));
     match report.finish(&mut writer, snapshots) {
-        Ok(files) => Ok(Done { summary: report.summary, files, error }),
+        Ok(drawn) => {
+            let files = [vec![drawn], files].concat().join(", ");
+            Ok(Done { summary: report.summary, files, error })
+        }
         // A failure of the run matters more than one of its report.
         Err(failure) => Err(error.unwrap_or(failure)),
     }

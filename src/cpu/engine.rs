@@ -8,8 +8,11 @@ use super::program::Program;
 use super::rim::RimState;
 use super::steps::{Stopped, Taken};
 use super::sums::total;
+use super::watch::Watch;
 use super::world::World;
-use crate::engine::{Engine, EngineInfo, StageSetup, State, Step, StepContact, SurfaceSum, Window};
+use crate::engine::{
+    Engine, EngineInfo, NodeState, StageSetup, State, Step, StepContact, SurfaceSum, Watched, Window,
+};
 use crate::error::{Error, Result};
 use crate::instructions::{Compilable, compiled};
 use crate::kernels::Field;
@@ -67,6 +70,9 @@ pub struct CpuEngine<T> {
     touching: u32,
     steps: u64,
     window_steps: u64,
+    watch: Watch,
+    /// What has been kept of the watched nodes.
+    watched: Vec<NodeState>,
 }
 
 impl<T: Compilable> CpuEngine<T> {
@@ -126,6 +132,8 @@ impl<T: Compilable> CpuEngine<T> {
             touching: 0,
             steps: 0,
             window_steps: 0,
+            watch: Watch::default(),
+            watched: Vec::new(),
         };
         engine.program.nodes.inverse_area = engine.inverse_areas(|n| mesh.nodes[n as usize]);
         engine
@@ -141,7 +149,7 @@ impl<T: Compilable> CpuEngine<T> {
             self.memory_before.slice_mut().copy_from_slice(self.arrays.memory.slice());
         }
         let course = Course::new(&self.world, &self.setup, self.steps, steps, self.rim, self.rested);
-        let taken = self.program.take(&mut self.arrays, &course, self.touching);
+        let taken = self.program.take(&mut self.arrays, &course, self.touching, &self.watch);
         if let Err(stopped) = &taken {
             // Some nodes of the failing step have moved already: take the steps before it again.
             let [x, v] = &self.before;
@@ -151,7 +159,12 @@ impl<T: Compilable> CpuEngine<T> {
                 self.arrays.memory.slice_mut().copy_from_slice(self.memory_before.slice());
             }
             self.program.clear_loose(&mut self.arrays.f);
-            let again = self.program.take(&mut self.arrays, &course.cut(stopped.step), self.touching);
+            let again = self.program.take(
+                &mut self.arrays,
+                &course.cut(stopped.step),
+                self.touching,
+                &Watch::default(),
+            );
             self.rim = again.expect("these steps have been taken before").rim;
         }
         taken
@@ -264,6 +277,9 @@ impl<T: Compilable> Engine for CpuEngine<T> {
                 self.step_contact.extend(taken.contact);
                 self.touching = taken.touching;
                 self.rested = false;
+                let frame = self.world.frame;
+                let absolute = |s: &NodeState| NodeState { x: [0, 1, 2].map(|d| s.x[d] + frame[d]), ..*s };
+                self.watched.extend(taken.watched.iter().map(absolute));
                 self.steps += steps.len() as u64;
                 self.window_steps += steps.len() as u64;
                 Ok(())
@@ -340,6 +356,15 @@ impl<T: Compilable> Engine for CpuEngine<T> {
         self.rested = true;
         self.follow();
         self.set_velocity(&state.v, rim_rate)
+    }
+
+    fn watch(&mut self, nodes: &[Watched]) -> Result<()> {
+        self.watch = Watch::new(&self.program, nodes, self.world.road.is_some());
+        Ok(())
+    }
+
+    fn watched(&mut self) -> Vec<NodeState> {
+        std::mem::take(&mut self.watched)
     }
 
     fn force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {

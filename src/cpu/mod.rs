@@ -72,6 +72,7 @@
 //! tables      masses, shapes, arms by place and lane        energies stored energies of a sample
 //! plan/*      from a model to items, lines, shares          world    conditions of a step
 //! sums        of all lines                                  rim      its own equation of motion
+//! watch       states that are kept after every step
 //! ```
 //!
 //! and below them the crate of kernels (`src/kernels`):
@@ -97,6 +98,7 @@ mod steps;
 mod sums;
 mod tables;
 mod team;
+mod watch;
 mod world;
 
 pub use engine::CpuEngine;

@@ -8,7 +8,8 @@ use super::program::Program;
 use super::rim::{Reaction, RimState};
 use super::sums::{contact_of, total};
 use super::team::{self, SpinBarrier};
-use crate::engine::{Probe, Step, StepContact};
+use super::watch::{Kept, Watch};
+use crate::engine::{NodeState, Probe, Step, StepContact};
 use crate::kernels::Line;
 use crate::kernels::LineSums;
 use crate::kernels::elements::{ElementStep, Failed};
@@ -27,6 +28,8 @@ pub struct Taken {
     pub contact: Vec<StepContact>,
     /// Nodes that touch in the last step.
     pub touching: u32,
+    /// States of the watched nodes, step after step.
+    pub watched: Vec<NodeState>,
 }
 
 /// Where steps end: det F of an element is not positive at the start of a step.
@@ -72,12 +75,21 @@ fn taken<'a>(step: &Step, terms: &'a [Fading]) -> ElementStep<'a> {
 impl<T: Real> Program<T> {
     /// Takes the steps of `course` with all threads; `touching`: nodes that touched in the step before. Where it stops,
     /// some nodes of the step that failed have moved already.
-    pub fn take(&self, arrays: &mut Arrays<T>, course: &Course<T>, touching: u32) -> Result<Taken, Stopped> {
+    pub fn take(
+        &self,
+        arrays: &mut Arrays<T>,
+        course: &Course<T>,
+        touching: u32,
+        watch: &Watch,
+    ) -> Result<Taken, Stopped> {
         let shared = arrays.shared();
         let failure = Failure::none();
-        let taken = team::run(self.shares.len(), |member, meeting| {
-            self.take_as(member, meeting, &shared, course, touching, &failure)
+        let mut states = vec![NodeState::default(); watch.len() * course.steps.len()];
+        let kept = Kept::new(watch, &mut states);
+        let mut taken = team::run(self.shares.len(), |member, meeting| {
+            self.take_as(member, meeting, &shared, (course, touching), &failure, &kept)
         });
+        taken.watched = states;
         failure.stopped().map_or(Ok(taken), Err)
     }
 
@@ -87,11 +99,11 @@ impl<T: Real> Program<T> {
         member: usize,
         meeting: &SpinBarrier,
         shared: &Shared<T>,
-        course: &Course<T>,
-        touching: u32,
+        (course, touching): (&Course<T>, u32),
         failure: &Failure,
+        kept: &Kept,
     ) -> Taken {
-        let mut state = Taken { rim: course.rim, contact: Vec::new(), touching };
+        let mut state = Taken { rim: course.rim, contact: Vec::new(), touching, watched: Vec::new() };
         for (n, step) in course.steps.iter().enumerate() {
             let c = course.early(n);
             // SAFETY: early, for a line of the share.
@@ -116,6 +128,11 @@ impl<T: Real> Program<T> {
                 // SAFETY: after, by the first member.
                 let lines = unsafe { shared.contacts(c.number) };
                 state.contact.push(contact_of(lines, step.dtm(), &mut state.touching));
+            }
+            if kept.any() {
+                // SAFETY: all members read, and nobody moves a node before they have met; each keeps a part of its own.
+                unsafe { kept.keep(shared, n, [member, self.shares.len()]) };
+                meeting.wait();
             }
         }
         state

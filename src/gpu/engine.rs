@@ -11,6 +11,7 @@ use super::rim::FreeRim;
 use super::series::Series;
 use super::upload;
 use super::verdict::{Flags, NO_FLAGS};
+use super::watch::Watch;
 use crate::engine::StepContact;
 use crate::error::Result;
 use crate::model::mesh::Mesh;
@@ -29,6 +30,8 @@ pub struct GpuEngine {
     pub(super) mesh: Option<Mesh>,
     /// Powers of two in which the frame follows the axle [m].
     grain: f64,
+    /// Nodes whose state is kept after every step.
+    pub(super) watch: Option<Watch>,
     /// Its place among bodies that take their steps together.
     pub(super) seat: Option<Seat>,
 }
@@ -115,6 +118,7 @@ impl GpuEngine {
             series,
             mesh,
             grain,
+            watch: None,
             seat,
         })
     }

@@ -1,8 +1,9 @@
 //! What [`GpuEngine`] answers as an explicit engine.
 
 use super::engine::GpuEngine;
-use crate::engine::{Engine, EngineInfo, StageSetup, State, Step, Window};
-use crate::error::Result;
+use super::watch::Watch;
+use crate::engine::{Engine, EngineInfo, NodeState, StageSetup, State, Step, Watched, Window};
+use crate::error::{Error, Result};
 use crate::physics::rim::Coordinates;
 
 impl Engine for GpuEngine {
@@ -54,6 +55,30 @@ impl Engine for GpuEngine {
         self.series.iter_mut().for_each(|series| series.rested = true);
         self.follow()?;
         self.set_velocity(&state.v, rim_rate)
+    }
+
+    fn watch(&mut self, nodes: &[Watched]) -> Result<()> {
+        if let (false, Some(_)) = (nodes.is_empty(), &self.seat) {
+            return Err(Error::Unsupported {
+                what: "[[output.history]] in an ensemble".into(),
+                instead: "leave --ensemble out, or the histories (--set 'output.history=[]')".into(),
+            });
+        }
+        self.watch = None;
+        if !nodes.is_empty() {
+            self.watch = Some(Watch::new(&mut self.body, &self.programs, nodes)?);
+        }
+        let one_by_one = self.watch.is_some();
+        if std::mem::replace(&mut self.programs.one_by_one, one_by_one) != one_by_one
+            && self.programs.stage.is_some()
+        {
+            self.compose_stage()?;
+        }
+        Ok(())
+    }
+
+    fn watched(&mut self) -> Vec<NodeState> {
+        self.watch.as_mut().map(Watch::kept).unwrap_or_default()
     }
 
     fn force(&mut self, x: &[[f64; 3]], v: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {

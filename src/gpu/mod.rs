@@ -11,7 +11,7 @@
 //!   -> upload -> prepared              what a body becomes on the device
 //!   -> bound, readback -> meeting      programs with their buffers; bodies that step together
 //!   -> check, limits, rim              what an adapter can do; the rim on the host
-//!   -> stage -> programs, body         everything there is to dispatch; a body's state
+//!   -> stage -> programs, body, watch  everything there is to dispatch; a body's state; states kept after every step
 //!   -> engine                          body, programs, pace
 //!   -> steps -> sample, trial, timing  what it does
 //!   -> explicit, ensemble              what it answers; several of them
@@ -50,6 +50,7 @@ mod timing;
 mod trial;
 mod upload;
 mod verdict;
+mod watch;
 
 pub use counts::Counts;
 pub use device::{AdapterReport, Gpu, STORAGE_BUFFERS, adapters};

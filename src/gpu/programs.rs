@@ -30,6 +30,8 @@ pub struct Programs {
     /// How the mesh fits into one work group, and whether small meshes are kept there.
     pub fits: Option<Shape>,
     pub resident_allowed: bool,
+    /// Whether something is done after every step, which a kernel that takes many leaves no place for.
+    pub one_by_one: bool,
 }
 
 impl Programs {
@@ -64,6 +66,7 @@ impl Programs {
             stage: None,
             fits,
             resident_allowed: false,
+            one_by_one: false,
             choice,
             constants,
         })
@@ -82,7 +85,8 @@ impl Programs {
         if choice.other_works() && !buffers.has("works") {
             buffers.zeroed(gpu, "works", <[f64; 2]>::size(choice.precision.real()), counts.nodes);
         }
-        let resident = self.fits.filter(|_| self.resident_allowed).map(|shape| (shape, seat));
+        let resident =
+            self.fits.filter(|_| self.resident_allowed && !self.one_by_one).map(|shape| (shape, seat));
         let stage = StagePrograms::new(gpu, &choice, &self.constants, buffers, &self.setup, rim, resident)?;
         self.stage = Some(stage);
         gpu.check()

@@ -5,7 +5,7 @@ use super::counts::GROUP;
 use super::engine::GpuEngine;
 use super::layout::{self, Wgsl};
 use super::meeting::Job;
-use super::readback::Readback;
+use super::readback::{Part, Readback};
 use super::upload;
 use super::verdict::{self, Taken, step_contact};
 use crate::engine::Step;
@@ -131,6 +131,8 @@ impl GpuEngine {
                 let passes = self.programs.passes(&self.body.counts);
                 for slot in 0..self.rounds(steps.len()) {
                     passes.iter().for_each(|p| p.dispatch(&mut pass, slot));
+                    let offset = (slot * step_stride(self.body.real())) as u32;
+                    self.watch.iter().for_each(|watch| watch.dispatch(&mut pass, &self.body, offset));
                 }
                 drop(pass);
                 self.take(encoder, steps.len())?
@@ -182,10 +184,15 @@ impl GpuEngine {
         let mut read = Readback::default();
         let [contact, failure, done] = REPORTS.map(|name| self.body.buffers.get(name));
         let parts = [read.add_first(contact, self.contact_bytes(steps)), read.add(failure), read.add(done)];
+        let states = self.body.buffers.has("watched_states").then(|| self.body.buffers.get("watched_states"));
+        let watched =
+            self.watch.iter().zip(states).map(|(w, b)| read.add_first(b, w.bytes(&self.body, steps)));
+        let watched: Vec<Part> = watched.collect();
         let begun = Instant::now();
         let data = read.copy(&self.body.gpu, encoder)?;
         let seconds = begun.elapsed().as_secs_f64();
-        Ok(Taken::of(parts.map(|part| data.part(part)), self.body.real(), seconds))
+        let taken = Taken::of(parts.map(|part| data.part(part)), self.body.real(), seconds);
+        Ok(Taken { watched: watched.iter().flat_map(|part| data.part(*part)).copied().collect(), ..taken })
     }
 
     /// Books steps that the device has taken.
@@ -194,6 +201,7 @@ impl GpuEngine {
         self.series.iter_mut().for_each(|series| series.rested = false);
         self.pace.window_steps += steps.len() as u64;
         self.pace.flags = taken.flags;
+        self.watch.iter_mut().for_each(|watch| watch.keep(&self.body, &taken.watched));
         if self.body.counts.surface > 0 {
             let each = taken.contact.chunks_exact(self.contact_groups());
             self.pace
@@ -211,7 +219,8 @@ impl GpuEngine {
         let (first, starts) = self.begin_steps(steps)?;
         let mut at = 0;
         while at < steps.len() {
-            let end = (at + self.pace.per_submit).min(steps.len());
+            let most = self.watch.as_ref().map_or(usize::MAX, |watch| watch.steps);
+            let end = (at + self.pace.per_submit.min(most)).min(steps.len());
             submit(self, &steps[at..end], &starts[at..end])?;
             at = end;
         }

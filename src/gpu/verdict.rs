@@ -19,6 +19,8 @@ pub struct Taken {
     /// Contact by step and work group.
     pub contact: Vec<[f64; 4]>,
     pub flags: Flags,
+    /// States of watched nodes, as they came.
+    pub watched: Vec<u8>,
     /// How long it took [s].
     pub seconds: f64,
 }
@@ -28,7 +30,7 @@ impl Taken {
     pub fn of([contact, failure, done]: [&[u8]; 3], real: Real, seconds: f64) -> Taken {
         let word = |bytes: &[u8], k: usize| bytemuck::cast_slice::<u8, u32>(bytes)[k];
         let flags = Flags { failure: [word(failure, 0), word(failure, 1)], done: word(done, 0) };
-        Taken { contact: decode(real, contact), flags, seconds }
+        Taken { contact: decode(real, contact), flags, watched: Vec::new(), seconds }
     }
 }
 

@@ -11,6 +11,7 @@
 //! | `contact_<k>.csv` | nodes that touched during the last window before snapshot k: see [`contact`] | each whole, at once |
 //! | `run.pvd` | times and names of the snapshots, for ParaView | after each snapshot |
 //! | `implicit.csv` | one row an iteration of an implicit stage ([`NewtonRow`](crate::record::NewtonRow)) | increment by increment |
+//! | `history_<name>.npz`, `.uff` | histories at a high rate: see [`history`] | each at once, at the end |
 //! | `summary.json` | a [`Summary`] | at the end |
 //! | `body*.png`, `footprint*.png` | pictures | by the renderer |
 //!
@@ -20,6 +21,7 @@
 pub mod compare;
 pub mod contact;
 pub mod folder;
+pub mod history;
 mod pvd;
 pub mod read;
 pub mod rolling;

@@ -3,9 +3,10 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use super::{Summary, contact, folder, pvd, snapshot};
+use super::{Summary, contact, folder, history, pvd, snapshot};
 use crate::model::mesh::Mesh;
-use crate::record::{NewtonRow, Reaction, Sample, Snapshot};
+use crate::record::{History, NewtonRow, Reaction, Sample, Snapshot};
+use crate::scene::history::Format;
 use crate::{Error, Result};
 
 /// The open folder of a run. Everything given to it is on disk when the call returns.
@@ -107,6 +108,19 @@ impl<'m> RunWriter<'m> {
         self.snapshots.push((snapshot.time, name));
         self.write_pvd()?;
         Ok(k)
+    }
+
+    /// Writes `history_<name>.<format>` for every format of the history; returns the names.
+    pub fn history(&self, history: &History) -> Result<Vec<String>> {
+        let write = |format: &Format| {
+            let name = folder::history_name(&history.name, format.ending());
+            folder::write_whole(&self.dir.join(&name), |out| match format {
+                Format::Npz => history::write_npz(out, history),
+                Format::Uff => history::write_uff(out, history),
+            })?;
+            Ok(name)
+        };
+        history.formats.iter().map(write).collect()
     }
 
     /// Writes `summary.json`.

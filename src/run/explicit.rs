@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::footprint::{self, Footprint};
+use super::histories::Ends;
 use super::state::{Run, State};
 use crate::engine::{Step, Window};
 use crate::error::Result;
@@ -92,13 +93,19 @@ impl Run<'_> {
     fn part(&mut self, stage: &Stage, end: f64) -> Result<Window> {
         let State { totals, rim, .. } = &self.state;
         let (start, first) = (totals.time, totals.steps);
+        let [at, rate] = [rim.at, rim.rate];
+        let unwatched = self.histories.most();
         let spin = rim.rate[rim::SPIN].abs().max(rim.motion.rate_at(end)[rim::SPIN].abs());
         let parts = match self.scene.road {
             Some(_) => ((end - start) / footprint::part(self.around, spin) - 1e-9).ceil().max(1.0),
             None => 1.0,
         };
         let until = if parts > 1.0 { start + (end - start) / parts } else { end };
-        let full = |steps: u64| self.scene.road.is_some() && (steps - first) as usize >= REMEMBERED;
+        let road = self.scene.road.is_some();
+        let full = |steps: u64| {
+            let taken = (steps - first) as usize;
+            (road && taken >= REMEMBERED) || taken >= unwatched
+        };
         loop {
             self.advance_towards(stage, end, until)?;
             let totals = &self.state.totals;
@@ -111,6 +118,11 @@ impl Run<'_> {
         let window = self.engine.sample(&next)?;
         (rim.at, rim.rate) = (window.rim, window.rim_rate);
         control.watch(&window, totals.steps);
+        if self.histories.any() {
+            let free = rim.motion.setup(0.0).free.map(|own| own.is_some());
+            let ends = Ends { start, end: totals.time, at: [at, rim.at], rate: [rate, rim.rate], free };
+            self.histories.look(&ends, &window.step_contact)?;
+        }
         Ok(window)
     }
 
@@ -125,10 +137,14 @@ impl Run<'_> {
         let mut taken = 0;
         let mut time = start;
         while taken < steps.len() {
-            let piece = &steps[taken..steps.len().min(taken + self.pace.most())];
+            let most = self.pace.most().min(self.histories.most());
+            let piece = &steps[taken..steps.len().min(taken + most)];
             let begun = Instant::now();
             self.engine.advance(piece)?;
             self.pace.took(piece.len(), begun.elapsed());
+            if self.histories.any() {
+                self.histories.took(piece, self.engine.watched());
+            }
             taken += piece.len();
             let whole = planned.whole && taken == steps.len();
             time = if whole { end } else { start + taken as f64 * planned.dt };

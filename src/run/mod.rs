@@ -12,6 +12,7 @@ pub mod estimate;
 mod explicit;
 mod fields;
 mod footprint;
+mod histories;
 mod implicit;
 mod lanczos;
 mod ledger;

@@ -2,7 +2,7 @@
 
 use super::totals::Totals;
 use crate::error::Result;
-use crate::record::{NewtonRow, Reaction, Sample, Snapshot};
+use crate::record::{History, NewtonRow, Reaction, Sample, Snapshot};
 
 /// Where a simulation stands.
 #[derive(Debug, Clone, Copy)]
@@ -35,6 +35,10 @@ pub trait Observer {
     }
     /// What drives sets of nodes has taken in the window of a `row`, set by set; after [`Observer::sample`].
     fn reactions(&mut self, _row: &Sample, _sets: &[Reaction]) -> Result<()> {
+        Ok(())
+    }
+    /// Histories at a high rate, when the run ends, however it does.
+    fn histories(&mut self, _histories: Vec<History>) -> Result<()> {
         Ok(())
     }
     /// Asked about twice a second, or more often: end here, keeping everything. The window on its way is cut short.

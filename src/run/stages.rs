@@ -32,25 +32,39 @@ pub fn run(
         return Err(gap);
     }
     let mut run = Run::new(scene, model, engine, observer)?;
-    while let Some(stage) = scene.stages.get(run.state.stage) {
-        let left = scene.stages[run.state.stage..].iter().map(|s| s.duration).sum::<f64>();
-        run.state.recorder.end = run.state.totals.time + left;
-        run.stage(stage)?;
-        let estimate = run.estimate(stage)?;
-        let noise = run.state.recorder.chatter.noise();
-        let noise = noise.map(|noise| ContactNoise { rounding: estimate.rounding, ..noise });
-        run.state.totals.noise.push(noise);
-        run.state.totals.estimate = estimate;
-        run.measure_free_radius(stage);
-        if run.state.totals.interrupted {
-            break;
-        }
-        run.state.stage += 1;
+    let ended = run.stages();
+    if !scene.output.histories.is_empty() {
+        // What was taken down before a failure is worth keeping; the failure matters more than that of keeping it.
+        let kept = run.histories.finish();
+        let kept = run.observer.histories(kept);
+        ended.and(kept)?;
+    } else {
+        ended?;
     }
     Ok(run.state.totals)
 }
 
 impl Run<'_> {
+    fn stages(&mut self) -> Result<()> {
+        let scene = self.scene;
+        while let Some(stage) = scene.stages.get(self.state.stage) {
+            let left = scene.stages[self.state.stage..].iter().map(|s| s.duration).sum::<f64>();
+            self.state.recorder.end = self.state.totals.time + left;
+            self.stage(stage)?;
+            let estimate = self.estimate(stage)?;
+            let noise = self.state.recorder.chatter.noise();
+            let noise = noise.map(|noise| ContactNoise { rounding: estimate.rounding, ..noise });
+            self.state.totals.noise.push(noise);
+            self.state.totals.estimate = estimate;
+            self.measure_free_radius(stage);
+            if self.state.totals.interrupted {
+                break;
+            }
+            self.state.stage += 1;
+        }
+        Ok(())
+    }
+
     fn stage(&mut self, stage: &Stage) -> Result<()> {
         let stage = &self.spun(stage)?;
         let State { totals, rim, recorder, .. } = &mut self.state;
@@ -58,6 +72,9 @@ impl Run<'_> {
         rim.motion = rim.motion.next(stage, start, rim.at, rim.rate);
         let relaxed = stage.is_quasi_static();
         self.engine.begin_stage(&StageSetup { relaxed, ..rim.motion.setup(stage.mass_damping) })?;
+        if !self.scene.output.histories.is_empty() {
+            self.engine.watch(&self.histories.begin(stage, self.scene, self.model))?;
+        }
         // Mass and inertia belong to a component for as long as it is free.
         totals.ledger.rim_set(rim.own_kinetic());
         let chatter = Chatter::new(self.around, start, stage.duration);

@@ -2,6 +2,7 @@
 
 use super::chatter::Chatter;
 use super::control::StepControl;
+use super::histories::Histories;
 use super::motion::RimState;
 use super::observer::Observer;
 use super::pace::Pace;
@@ -30,6 +31,7 @@ pub struct Run<'a> {
     pub observer: &'a mut dyn Observer,
     /// Of this machine, so it is no part of the state.
     pub pace: Pace,
+    pub histories: Histories,
     pub state: State,
 }
 
@@ -68,6 +70,7 @@ impl<'a> Run<'a> {
             settling: Settling::default(),
         };
         let around = model.mesh.ring().map(|ring| ring.around);
-        Ok(Run { scene, model, around, engine, observer, pace: Pace::default(), state })
+        let histories = Histories::new(scene, model)?;
+        Ok(Run { scene, model, around, engine, observer, pace: Pace::default(), histories, state })
     }
 }

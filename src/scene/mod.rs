@@ -6,6 +6,7 @@
 mod document;
 pub mod file;
 pub mod heights;
+pub mod history;
 mod node_set;
 mod overrides;
 mod reader;
@@ -351,6 +352,8 @@ pub struct Output {
     /// Scatter of the contact force from step to step, over the mean normal force, above which it is named; default
     /// 0.05.
     pub chatter_limit: f64,
+    /// Nodes and points that are taken down at a high rate.
+    pub histories: Vec<history::History>,
 }
 
 /// When whole fields are written (`.vtu`, `contact_<k>.csv`).

@@ -84,6 +84,13 @@ impl<'a> Item<'a> {
         enough.ok_or_else(|| self.error(format!("{value} is too few"), format!("at least {least} {why}")))
     }
 
+    pub fn flag(&self) -> Result<bool> {
+        match self.node.value {
+            Value::Bool(value) => Ok(value),
+            _ => Err(self.expected("true or false", "write it without quotes")),
+        }
+    }
+
     /// A quantity with a unit, in SI.
     pub fn quantity(&self, dimension: &Dimension, bound: Bound) -> Result<f64> {
         let text = match &self.node.value {

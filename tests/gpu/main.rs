@@ -13,6 +13,7 @@ mod errors;
 mod far;
 mod forces;
 mod functions;
+mod histories;
 mod laws;
 mod relaxing;
 mod repeat;
@@ -34,7 +35,7 @@ use std::sync::Arc;
 
 type Check = fn(&Gpu);
 
-const CHECKS: [(&str, Check); 33] = [
+const CHECKS: [(&str, Check); 34] = [
     ("forces_of_every_element_and_law_are_the_cpus", forces::every_composition),
     ("ogden_with_powers_two_and_minus_two_is_mooney_rivlin", forces::ogden_is_mooney_rivlin),
     ("forces_as_pairs_are_the_cpus", forces::pairs),
@@ -50,6 +51,7 @@ const CHECKS: [(&str, Check); 33] = [
     ("a_block_and_its_rim_fall_together", rim::falls),
     ("what_relaxes_is_the_cpus", relaxing::agrees),
     ("what_points_remember_is_left_alone", relaxing::disturbed),
+    ("histories_at_a_high_rate_are_the_cpus", histories::as_the_cpus),
     ("a_rerun_is_the_same_to_the_bit", repeat::bit_identical),
     ("far_from_the_origin_forces_are_the_same", far::offset),
     ("the_frame_follows_a_fast_wheel", far::followed),

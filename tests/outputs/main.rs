@@ -5,6 +5,7 @@ mod comparing;
 mod damaged;
 mod fixtures;
 mod folders;
+mod histories;
 mod independent_reader;
 mod round_trips;
 mod summaries;

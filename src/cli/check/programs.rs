@@ -130,6 +130,8 @@ fn scene_kernels(scene: &Scene) -> Vec<(Kernel, &'static str)> {
         (Kernel::Reduce, "every window"),
     ];
     kernels.extend(scene.road.as_ref().map(|_| (Kernel::SurfaceState, "every window")));
+    let watched = !scene.output.histories.is_empty();
+    kernels.extend(watched.then_some((Kernel::Watch, "every step of stages with histories")));
     kernels.extend(scene.rim.as_ref().map(|_| (Kernel::Rebase, "when the wheel has rolled a grain further")));
     kernels
 }

@@ -50,6 +50,8 @@ pub enum Kernel {
     NodeProbe,
     Rim,
     SurfaceState,
+    /// Of histories at a high rate.
+    Watch,
     Gather,
     Reduce,
     Rebase,
@@ -57,7 +59,7 @@ pub enum Kernel {
 }
 
 impl Kernel {
-    pub const ALL: [Kernel; 12] = [
+    pub const ALL: [Kernel; 13] = [
         Kernel::ElementForce,
         Kernel::ElementEnergy,
         Kernel::Node,
@@ -66,6 +68,7 @@ impl Kernel {
         Kernel::NodeProbe,
         Kernel::Rim,
         Kernel::SurfaceState,
+        Kernel::Watch,
         Kernel::Gather,
         Kernel::Reduce,
         Kernel::Rebase,
@@ -82,6 +85,7 @@ impl Kernel {
             Kernel::NodeProbe => "kernels/node_probe",
             Kernel::Rim => "kernels/rim",
             Kernel::SurfaceState => "kernels/surface_state",
+            Kernel::Watch => "kernels/watch",
             Kernel::Gather => "kernels/gather",
             Kernel::Reduce => "kernels/reduce",
             Kernel::Rebase if precision.has_pairs() => "kernels/rebase_plus",

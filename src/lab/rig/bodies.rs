@@ -79,6 +79,7 @@ pub fn scene(mesh: MeshSpec) -> Scene {
             snapshots: Snapshots::StageEnds,
             pictures: Vec::new(),
             chatter_limit: 0.05,
+            histories: Vec::new(),
         },
     }
 }

@@ -4,7 +4,7 @@ use hexroll::Result;
 use hexroll::cpu::{self, Precision};
 use hexroll::engine::{Engine, StageSetup, Step, Window};
 use hexroll::model::Model;
-use hexroll::record::{NewtonRow, Reaction, Sample, Snapshot};
+use hexroll::record::{History, NewtonRow, Reaction, Sample, Snapshot};
 use hexroll::run::{self, Observer, Progress, Totals};
 use hexroll::scene::Scene;
 
@@ -18,6 +18,7 @@ pub struct Recorder {
     pub snapshots: Vec<Snapshot>,
     pub iterations: Vec<NewtonRow>,
     pub notes: Vec<String>,
+    pub histories: Vec<History>,
 }
 
 impl Observer for Recorder {
@@ -31,6 +32,10 @@ impl Observer for Recorder {
     }
     fn snapshot(&mut self, snapshot: &Snapshot, _: &str) -> Result<()> {
         self.snapshots.push(snapshot.clone());
+        Ok(())
+    }
+    fn histories(&mut self, histories: Vec<History>) -> Result<()> {
+        self.histories = histories;
         Ok(())
     }
     fn increment(&mut self, iterations: &[NewtonRow]) -> Result<()> {

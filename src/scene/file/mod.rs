@@ -4,6 +4,7 @@
 #![doc = include_str!("../../../docs/guide/scene.md")]
 
 mod body;
+mod history;
 mod implicit;
 mod material;
 mod output;
@@ -47,7 +48,7 @@ const LATER: [Later; 5] = [
     ("checkpoint", "run the scene in one piece"),
     ("restart", "run the scene in one piece"),
     ("bodies", "describe one [body]"),
-    ("spectrum", "analyse history.csv"),
+    ("spectrum", "write [[output.history]], run the scene, and then hexroll spectrum on its folder"),
 ];
 
 impl Scene {

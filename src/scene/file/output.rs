@@ -1,9 +1,13 @@
 //! `[output]`: windows, snapshots, pictures.
 
+use super::history;
 use crate::error::Result;
-use crate::scene::reader::{Bound, Item};
+use crate::scene::reader::{Bound, Item, Later};
 use crate::scene::units::TIME;
 use crate::scene::{Field, Output, Picture, Snapshots, Stage};
+
+const SPECTRA: [Later; 1] =
+    [("spectra", "write [[output.history]], run the scene, and then hexroll spectrum on its folder")];
 
 const PICTURES: [(&str, Picture); 8] = [
     ("footprint", Picture::Footprint),
@@ -18,8 +22,7 @@ const PICTURES: [(&str, Picture); 8] = [
 
 pub(super) fn output(item: &Item, stages: &[Stage], has_road: bool) -> Result<Output> {
     let table = item.table()?;
-    table
-        .only(&["sample", "snapshots", "pictures", "chatter_limit"], &[("spectra", "analyse history.csv")])?;
+    table.only(&["sample", "snapshots", "pictures", "chatter_limit", "history"], &SPECTRA)?;
     let sample = table.quantity("sample", &TIME, Bound::Positive)?;
     if let Some(stage) = stages.iter().find(|s| s.duration < sample) {
         return Err(table.at("sample").error(
@@ -30,7 +33,9 @@ pub(super) fn output(item: &Item, stages: &[Stage], has_road: bool) -> Result<Ou
     let snapshots = table.get("snapshots").map_or(Ok(Snapshots::StageEnds), |s| snapshots(&s, sample))?;
     let pictures = table.get("pictures").map_or(Ok(Vec::new()), |p| pictures(&p, has_road))?;
     let chatter_limit = table.number_or("chatter_limit", 0.05, Bound::Positive)?;
-    Ok(Output { sample, snapshots, pictures, chatter_limit })
+    let histories =
+        table.get("history").map_or(Ok(Vec::new()), |h| history::histories(&h, stages, has_road))?;
+    Ok(Output { sample, snapshots, pictures, chatter_limit, histories })
 }
 
 fn snapshots(item: &Item, sample: f64) -> Result<Snapshots> {
