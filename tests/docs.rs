@@ -173,6 +173,8 @@ fn the_guide_has_every_column_and_file() {
         "snapshot_<k>.vtu",
         "history_<name>.npz",
         "history_<name>.uff",
+        "spectrum_<name>.csv",
+        "bands_<name>.csv",
         "report.html",
     ] {
         assert!(guide.contains(&format!("`{file}`")), "docs/guide/outputs.md does not have the file {file}");

@@ -22,6 +22,7 @@ mod render;
 mod report;
 mod run;
 mod scene;
+mod spectrum;
 mod study;
 mod sweep;
 mod table;
@@ -88,6 +89,9 @@ enum Command {
     /// Overlay columns of several runs' histories in one plot
     #[command(after_help = plot::HELP)]
     Plot(plot::PlotArgs),
+    /// Power spectra and one-third-octave bands of a run's histories
+    #[command(after_help = spectrum::HELP)]
+    Spectrum(spectrum::SpectrumArgs),
     /// List the GPU adapters, their limits, and the one that `--engine auto` takes
     Adapters(adapters::AdaptersArgs),
     /// Time every engine against the machine's measured limits
@@ -129,6 +133,7 @@ impl Cli {
             Command::Compare(args) => compare::execute(&args),
             Command::Report(args) => report::execute(&args),
             Command::Plot(args) => plot::execute(&args),
+            Command::Spectrum(args) => spectrum::execute(&args),
             Command::Adapters(args) => adapters::execute(&args),
             Command::Bench(args) => bench::execute(&args),
         }

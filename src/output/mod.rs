@@ -27,6 +27,7 @@ pub mod read;
 pub mod rolling;
 pub mod scatter;
 pub mod snapshot;
+pub mod spectrum;
 pub mod stages;
 pub mod summary;
 pub mod vtu;

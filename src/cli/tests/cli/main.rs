@@ -12,4 +12,5 @@ mod pages;
 mod program;
 mod reporting;
 mod running;
+mod spectra;
 mod studies;
