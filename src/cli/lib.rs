@@ -6,6 +6,7 @@
 #![allow(non_snake_case)] // F, J, W, N: the field's own symbols
 
 mod adapters;
+mod animate;
 mod batch;
 mod bench;
 mod check;

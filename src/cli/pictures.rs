@@ -90,16 +90,16 @@ pub fn draw(
     Ok(written)
 }
 
-fn name_of<T: PartialEq>(names: &[(&'static str, T)], value: &T) -> &'static str {
+pub fn name_of<T: PartialEq>(names: &[(&'static str, T)], value: &T) -> &'static str {
     names.iter().find(|(_, v)| v == value).map_or("custom", |(name, _)| name)
 }
 
-fn body_view(field: Field, style: &Style) -> BodyView {
+pub fn body_view(field: Field, style: &Style) -> BodyView {
     let Style { size, view, title, road } = style.clone();
     BodyView { size, field, view: view.unwrap_or(View::Iso), title: Some(title), road, ..BodyView::default() }
 }
 
-fn footprint_view(style: &Style) -> Result<FootprintView> {
+pub fn footprint_view(style: &Style) -> Result<FootprintView> {
     let Style { size, view, title, road } = style.clone();
     let road =
         road.ok_or_else(|| Error::Picture { problem: "there is no footprint without a road".into() })?;

@@ -6,7 +6,7 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::pictures::{self, FIELDS, Style, VIEWS};
-use super::terminal;
+use super::{animate, terminal};
 use hexroll::output::read;
 use hexroll::render::{DEFAULT_SIZE, View};
 use hexroll::scene::{Field, Picture, Scene};
@@ -19,6 +19,7 @@ Writes body_<field>_<k>.png and footprint_<k>.png, with the view's name in them 
 Examples:
   hexroll render runs/lat100_straight
   hexroll render runs/lat100_straight --view side --field pressure --field velocity --snapshot all
+  hexroll render runs/lat100_straight --animate --size 960x540 --field von-mises --footprint
   hexroll render runs/lat100_straight --footprint --view iso --size 2400x1350 --out figures";
 
 #[derive(Debug, Args)]
@@ -40,6 +41,12 @@ pub struct RenderArgs {
     /// Which snapshot: its number from 0, `last` or `all`
     #[arg(long, value_name = "K|last|all", value_parser = which, default_value = "last")]
     snapshot: Which,
+    /// All snapshots as frames of one animated PNG a picture (APNG, which browsers and slides play), with one colour scale
+    #[arg(long, conflicts_with = "snapshot")]
+    animate: bool,
+    /// Frames a second of an animation
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..=100))]
+    fps: u16,
     /// Folder to write to; default the run's
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -76,7 +83,8 @@ fn which(text: &str) -> std::result::Result<Which, String> {
 
 pub fn execute(args: &RenderArgs) -> Result<()> {
     let snapshots = read::snapshots(&args.dir)?;
-    let wanted = wanted(args.snapshot, snapshots.len(), &args.dir)?;
+    let which = if args.animate { Which::All } else { args.snapshot };
+    let wanted = wanted(which, snapshots.len(), &args.dir)?;
     let scene = stored_scene(&args.dir)?;
     let style = Style {
         size: args.size,
@@ -85,7 +93,11 @@ pub fn execute(args: &RenderArgs) -> Result<()> {
         road: scene.as_ref().and_then(|s| s.road.clone()),
     };
     let out = args.out.as_deref().unwrap_or(&args.dir);
-    let written = pictures::draw(&snapshots, &wanted, &asked(args, scene.as_ref()), &style, out)?;
+    let asked = asked(args, scene.as_ref());
+    let written = match args.animate {
+        true => animate::draw(&snapshots, &asked, &style, args.fps, out)?,
+        false => pictures::draw(&snapshots, &wanted, &asked, &style, out)?,
+    };
     let lines: String = written.iter().map(|path| format!("{}\n", path.display())).collect();
     terminal::print(&lines)
 }

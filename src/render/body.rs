@@ -127,6 +127,18 @@ impl Renderer {
     }
 }
 
+/// Ends of the values that a picture of the body shows, from zero on where they are magnitudes [SI].
+///
+/// # Errors
+/// [`Error::Picture`](crate::Error::Picture) if the snapshot does not fit the mesh.
+pub fn body_values(mesh: &Mesh, snapshot: &Snapshot, field: Field) -> Result<[f64; 2]> {
+    let values = field::values(field, mesh, snapshot)?;
+    let (_, _, magnitude) = field::describe(field);
+    let shown = shown_values(mesh, &facet_elements(mesh), &values);
+    let from = if magnitude { [0.0; 2] } else { [f64::INFINITY, f64::NEG_INFINITY] };
+    Ok(shown.iter().filter(|v| v.is_finite()).fold(from, |[low, high], v| [low.min(*v), high.max(*v)]))
+}
+
 /// The road's plate, if there is a road near enough to be seen with the body.
 fn plate(snapshot: &Snapshot, options: &BodyView) -> Option<Plate> {
     let chart = Chart(options.road.clone()?);

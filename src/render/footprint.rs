@@ -65,6 +65,12 @@ impl Default for FootprintView {
     }
 }
 
+/// Ends of the values that a picture of the contact shows, from zero on [SI].
+pub fn footprint_values(mesh: &Mesh, snapshot: &Snapshot, options: &FootprintView) -> [f64; 2] {
+    let touches = Contact::of(mesh, snapshot, options.road).touches;
+    [0.0, touches.iter().map(|t| options.colour.of(t)).fold(0.0, f64::max)]
+}
+
 impl FootprintColour {
     pub(super) fn of(self, touch: &Touch) -> f64 {
         match self {

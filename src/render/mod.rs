@@ -20,10 +20,10 @@ mod scale;
 mod surface;
 mod symbols;
 
-pub use body::BodyView;
+pub use body::{BodyView, body_values};
 pub use camera::{Camera, Projection, View};
 pub use colour::ColourMap;
-pub use footprint::{FootprintColour, FootprintStyle, FootprintView};
+pub use footprint::{FootprintColour, FootprintStyle, FootprintView, footprint_values};
 pub use scale::{Range, Scale};
 
 use crate::{Error, Result};

@@ -10,6 +10,14 @@ pub enum Range {
     Fixed(f64, f64),
 }
 
+impl Range {
+    /// From one value to another, widened to round numbers.
+    pub fn round(low: f64, high: f64) -> Range {
+        let scale = Scale::new(&[low, high], "", Range::Auto, false);
+        Range::Fixed(scale.low, scale.high)
+    }
+}
+
 /// A scale of values: its ends, its ticks and how they are written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scale {

@@ -13,9 +13,10 @@ use program::Place;
 
 type Check = fn();
 
-const CHECKS: [(&str, Check); 5] = [
+const CHECKS: [(&str, Check); 6] = [
     ("a_run_draws_the_pictures_its_scene_asks_for", pictures_of_a_run),
     ("render_draws_other_views_from_the_folder_alone", pictures_again),
+    ("an_animation_has_a_frame_a_snapshot_and_one_scale", animation),
     ("render_of_what_is_not_there_is_an_error", nothing_to_draw),
     ("the_gpu_engine_runs_a_scene_and_says_on_what", gpu_engine),
     ("an_ensemble_makes_the_runs_of_a_sweep_at_once", ensemble),
@@ -82,6 +83,36 @@ fn pictures_again() {
         usual, "out/body_von-mises_1.png\nout/footprint_1.png\n",
         "what the scene asks for, of the last one"
     );
+}
+
+fn animation() {
+    let place = Place::new();
+    run(&place);
+    let arguments = ["--animate", "--fps", "5", "--size", "640x360", "--field", "velocity", "--footprint"];
+    let written = place.hexroll(&[&["render", "out"], &arguments[..]].concat()).expect(0).stdout;
+    assert_eq!(written, "out/body_velocity.png\nout/footprint.png\n");
+    let bytes = std::fs::read(place.path("out/body_velocity.png")).unwrap();
+    let decoder = png::Decoder::new(std::io::Cursor::new(&bytes));
+    let mut reader = decoder.read_info().unwrap();
+    assert_eq!(reader.info().animation_control.unwrap().num_frames, 2);
+    let mut frames = Vec::new();
+    for _ in 0..2 {
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        frames.push(pixels);
+    }
+    assert_ne!(frames[0], frames[1], "the block moves");
+    // The colour bar, at the right, is the same in both: one scale.
+    let bar = |pixels: &[u8]| -> Vec<u8> {
+        pixels
+            .chunks_exact(3 * 640)
+            .skip(80)
+            .take(200)
+            .flat_map(|row| row[3 * 535..3 * 600].to_vec())
+            .collect()
+    };
+    assert_eq!(bar(&frames[0]), bar(&frames[1]));
+    place.hexroll(&["render", "out", "--animate", "--snapshot", "0"]).expect(2);
 }
 
 fn nothing_to_draw() {
