@@ -537,12 +537,12 @@ fn the_sheared_block_of_the_scenes_lags_by_its_loss_angle() {
     let outcome = hexroll_lab::rig::run(&shipped::<&str>("sheared_rubber_loss", &[]));
     let omega = std::f64::consts::TAU * 1.332;
     let half = 100;
-    // Means over windows belong to their middles. Two whole cycles.
+    // Means over windows: of the forces at the starts of their steps. Two whole cycles.
     let [mut sine, mut cosine] = [0.0; 2];
     let rows = outcome.samples.len();
     for (sample, reactions) in outcome.samples.iter().zip(&outcome.reactions).skip(rows - 2 * half) {
         let force = reactions.iter().find(|r| r.set == "z-max").unwrap().components[0].unwrap()[1];
-        let phase = omega * (sample.time_s - 0.5 * 7.5075e-3);
+        let phase = omega * (sample.time_s - 0.5 * (7.5075e-3 + sample.dt_s));
         (sine, cosine) = (sine + force * phase.sin(), cosine + force * phase.cos());
     }
     close("tan delta", cosine / sine, 0.1793, 5e-3);

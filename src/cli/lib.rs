@@ -14,6 +14,8 @@ pub mod choose;
 mod compare;
 mod estimate;
 mod format;
+mod manual;
+mod new;
 mod page;
 mod pictures;
 mod plot;
@@ -47,6 +49,7 @@ Exit codes:
 
 const EXAMPLES: &str = "\
 Examples:
+  hexroll new wheel
   hexroll check scenes/lat100_straight.toml
   hexroll run scenes/lat100_straight.toml
   hexroll report run runs/lat100_straight
@@ -66,6 +69,9 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Write a commented scene to begin with
+    #[command(after_help = new::HELP)]
+    New(new::NewArgs),
     /// Simulate a scene and write histories, fields, pictures and a summary
     #[command(after_help = run::HELP)]
     Run(run::RunArgs),
@@ -98,6 +104,12 @@ enum Command {
     /// Time every engine against the machine's measured limits
     #[command(after_help = bench::HELP)]
     Bench(bench::BenchArgs),
+    /// Print the completions of a shell
+    #[command(after_help = manual::COMPLETIONS)]
+    Completions(manual::CompletionsArgs),
+    /// Print or write the manual's pages
+    #[command(after_help = manual::MAN)]
+    Man(manual::ManArgs),
 }
 
 impl Cli {
@@ -126,6 +138,7 @@ impl Cli {
     /// Whatever ends a command: see [`Error`](hexroll::Error).
     pub fn execute(self) -> Result<()> {
         match self.command {
+            Command::New(args) => new::execute(&args),
             Command::Run(args) => run::execute(&args),
             Command::Check(args) => check::execute(&args),
             Command::Render(args) => render::execute(&args),
@@ -137,6 +150,8 @@ impl Cli {
             Command::Spectrum(args) => spectrum::execute(&args),
             Command::Adapters(args) => adapters::execute(&args),
             Command::Bench(args) => bench::execute(&args),
+            Command::Completions(args) => manual::completions(&args, Cli::command()),
+            Command::Man(args) => manual::man(&args, Cli::command()),
         }
     }
 }

@@ -67,7 +67,7 @@ impl Default for FootprintView {
 
 /// Ends of the values that a picture of the contact shows, from zero on [SI].
 pub fn footprint_values(mesh: &Mesh, snapshot: &Snapshot, options: &FootprintView) -> [f64; 2] {
-    let touches = Contact::of(mesh, snapshot, options.road).touches;
+    let touches = Contact::of(mesh, snapshot, options.road.clone()).touches;
     [0.0, touches.iter().map(|t| options.colour.of(t)).fold(0.0, f64::max)]
 }
 

@@ -140,7 +140,7 @@ fn picture(law: &Law, stretches: &[f64], curves: &Stresses) -> Result<image::Rgb
             Some(points(false)).filter(|p| !p.is_empty()).map(|p| series("not stable", p, Mark::Dots)),
         );
         let (x, y) = ("stretch".into(), "nominal stress (MPa)".into());
-        Panel { title: test.name().into(), x, y, series: all }
+        Panel { title: test.name().into(), x, y, log_x: false, series: all }
     };
     let panels: Vec<Panel> = Test::ALL.iter().zip(curves).map(panel).collect();
     figure(&format!("{} in tension, sides free", law.name()), &panels, 3)

@@ -1,6 +1,7 @@
 //! The command line as a user meets it: the built program, its files, its messages, its exit codes.
 
 mod alarms;
+mod beginning;
 mod benching;
 mod checking;
 mod choosing;
