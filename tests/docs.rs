@@ -133,6 +133,9 @@ fn the_guide_has_every_key_of_the_reader() {
         let source = format!("road.{source}");
         sections.push(("road.", keys("road.", &["road.shape=height-field", &source])));
     }
+    let file = "body.mesh={ file = \"a.inp\", unit = \"mm\" }";
+    sections.push(("body.mesh.", keys("body.mesh.", &[file])));
+    sections.push(("body.mesh.revolve.", keys("body.mesh.revolve.", &[file, "body.mesh.revolve.sectors=9"])));
     for kind in Friction::KINDS {
         sections.push(("friction.", keys("friction.", &[&format!("friction.law={}", kind.name)])));
     }

@@ -13,9 +13,10 @@ use super::warnings;
 use hexroll::engine::EngineInfo;
 use hexroll::gpu::{Gpu, GpuEngine, adapters, ensemble};
 use hexroll::model::Model;
+use hexroll::model::mesh::Mesh;
 use hexroll::output::read;
 use hexroll::output::summary::Summary;
-use hexroll::scene::Scene;
+use hexroll::scene::{MeshSpec, Scene};
 use hexroll::study::axis::Changes;
 use hexroll::{Error, Precision, Result, cpu};
 
@@ -72,7 +73,15 @@ impl Case {
                 EngineChoice::Cpu => summary.engine == "cpu",
                 EngineChoice::Gpu => summary.engine == "gpu",
             };
-        same.then_some(summary)
+        (same && self.has_mesh(summary.mesh_hash.as_deref())).then_some(summary)
+    }
+
+    /// Whether the scene's mesh is still that of this hash: a scene's text does not say what is in a file.
+    fn has_mesh(&self, hash: Option<&str>) -> bool {
+        let MeshSpec::File(file) = &self.scene.body.mesh else { return hash.is_none() };
+        let rim = self.scene.rim.as_ref().map(|rim| &rim.nodes);
+        let now = Mesh::imported(file, rim).ok().and_then(|mesh| mesh.labels);
+        now.is_some_and(|labels| Some(labels.hash.as_str()) == hash)
     }
 }
 

@@ -14,7 +14,10 @@ use hexroll::scene::{ImplicitScheme, Method, Scene, Stage};
 pub struct Steps {
     /// Largest step that is stable for every element by itself, at rest [s].
     pub element_bound_s: f64,
-    /// The same times the scene's safety factor [s].
+    /// Those of every shape.
+    #[serde(skip)]
+    pub bounds: Vec<stability::Bound>,
+    /// The smallest of them times the scene's safety factor [s].
     pub dt_s: f64,
     /// Steps of every stage; a quasi-static one may settle sooner.
     pub by_stage: Vec<u64>,
@@ -26,7 +29,8 @@ pub struct Steps {
 
 impl Steps {
     pub fn of(scene: &Scene, model: &Model) -> Result<Steps> {
-        let element_bound_s = stability::element_bound(model)?;
+        let bounds = stability::element_bounds(model)?;
+        let element_bound_s = bounds.iter().map(|b| b.dt).fold(f64::INFINITY, f64::min);
         let dt_s = scene.safety * element_bound_s;
         let steps = |s: &Stage| match s.method {
             Method::Implicit(implicit) => match implicit.scheme {
@@ -40,7 +44,7 @@ impl Steps {
         let is_explicit = |s: &Stage| !matches!(s.method, Method::Implicit(_));
         let of_stage = scene.stages.iter().zip(&by_stage);
         let explicit = of_stage.filter(|(s, _)| is_explicit(s)).map(|(_, n)| n).sum();
-        Ok(Steps { element_bound_s, dt_s, by_stage, total, explicit })
+        Ok(Steps { element_bound_s, bounds, dt_s, by_stage, total, explicit })
     }
 
     /// Wall time at a rate of element updates per second [s].

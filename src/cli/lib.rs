@@ -15,6 +15,7 @@ mod compare;
 mod estimate;
 mod format;
 mod manual;
+mod mesh;
 mod new;
 mod page;
 mod pictures;
@@ -78,6 +79,9 @@ enum Command {
     /// Say what would be modelled and what it would cost; runs nothing
     #[command(after_help = check::HELP)]
     Check(check::CheckArgs),
+    /// Draw the mesh of a scene and write it for other programs; runs nothing
+    #[command(after_help = mesh::HELP)]
+    Mesh(mesh::MeshArgs),
     /// Draw pictures from the folder of a finished or killed run
     #[command(after_help = render::HELP)]
     Render(render::RenderArgs),
@@ -141,6 +145,7 @@ impl Cli {
             Command::New(args) => new::execute(&args),
             Command::Run(args) => run::execute(&args),
             Command::Check(args) => check::execute(&args),
+            Command::Mesh(args) => mesh::execute(&args),
             Command::Render(args) => render::execute(&args),
             Command::Study(args) => study::execute(&args),
             Command::Sweep(args) => sweep::execute(&args),

@@ -107,7 +107,8 @@ pub fn footprint_view(style: &Style) -> Result<FootprintView> {
     Ok(FootprintView { size, style, title: Some(title), road, ..FootprintView::default() })
 }
 
-fn save(image: &RgbaImage, path: &Path) -> Result<()> {
+/// Writes a picture as a whole.
+pub fn save(image: &RgbaImage, path: &Path) -> Result<()> {
     let mut png = Cursor::new(Vec::new());
     image
         .write_to(&mut png, ImageFormat::Png)

@@ -60,7 +60,8 @@ enum Which {
     All,
 }
 
-fn named<T: Copy + Send + Sync + 'static>(
+/// A parser of names.
+pub fn named<T: Copy + Send + Sync + 'static>(
     names: &'static [(&'static str, T)],
 ) -> impl TypedValueParser<Value = T> {
     let value = |name: String| names.iter().find(|(n, _)| *n == name).map(|(_, v)| *v).ok_or("no such name");

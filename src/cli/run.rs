@@ -117,7 +117,7 @@ pub fn simulate_with(
             (t, Some(error))
         }
         Ok(totals) => (totals, None),
-        Err(error) => (recorder.totals.clone(), Some(error)),
+        Err(error) => (recorder.totals.clone(), Some(in_the_files_numbers(error, model))),
     };
     let mut report = Report { scene, model, info, reason, out, summary: Summary::default() };
     report.fill(&recorder, &totals, start.elapsed(), error.as_ref());
@@ -150,6 +150,7 @@ impl Report<'_> {
         let updates = totals.steps as f64 * self.model.element_count() as f64;
         let stages = StageMeans::of_run(scene, &recorder.history, &totals.noise, totals.free_radius);
         let mut warnings = warnings::of(scene, self.model);
+        warnings.extend(self.model.mesh.notes.iter().map(|note| format!("of the mesh's file: {note}")));
         let stored_balance = WorstBalance::of_stored(&recorder.history);
         let hourglass = HourglassShare::of(&recorder.history, totals.energy_rounding);
         warnings.extend(warnings::of_run(scene, &stages, &stored_balance, hourglass.as_ref(), totals));
@@ -160,6 +161,7 @@ impl Report<'_> {
             scene_file: scene.file.display().to_string(),
             title: scene.title.clone(),
             scene_hash: scene.hash.clone(),
+            mesh_hash: self.model.mesh.labels.as_ref().map(|labels| labels.hash.clone()),
             adapter: on_gpu.map(|()| info.device.clone()),
             driver: on_gpu.map(|()| info.driver.clone()),
             engine: info.engine.clone(),
@@ -212,4 +214,16 @@ impl Report<'_> {
         let drawn = pictures::draw(&stored, &wanted, &self.scene.output.pictures, &style, self.out)?;
         Ok(drawn.len())
     }
+}
+
+/// An element that failed by the number that it has in the file of the mesh; parts that count from one again have no such number.
+fn in_the_files_numbers(mut error: Error, model: &Model) -> Error {
+    if let (Error::Inverted { element, .. } | Error::NotFinite { element, .. }, Some(labels)) =
+        (&mut error, &model.mesh.labels)
+        && labels.elements.parts.len() <= 1
+        && let Some(&number) = labels.elements.of.get(*element)
+    {
+        *element = number as usize;
+    }
+    error
 }

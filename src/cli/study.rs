@@ -138,7 +138,11 @@ fn label(axis: &Axis, value: &Value, scene: &Scene) -> String {
     if axis.key != "refine" {
         return value.text.clone();
     }
-    scene.body.mesh.elements().map(|n| n.to_string()).join("x")
+    scene
+        .body
+        .mesh
+        .elements()
+        .map_or_else(|| value.text.clone(), |counts| counts.map(|n| n.to_string()).join("x"))
 }
 
 /// A file's name without its ending.

@@ -96,24 +96,32 @@ fn within(there: There, scene: &Scene, need: impl Fn(&Scene) -> Need) -> Result<
         parts: needed.to_string(),
         there: there.bytes,
         limit: there.limit,
-        fits: largest((ADVISED * there.bytes as f64) as u64, scene, need)
-            .map_or("no mesh would fit".into(), |c| {
-                format!("body.mesh.elements = {c:?} ({} elements) would fit", c.iter().product::<usize>())
-            }),
+        fits: largest((ADVISED * there.bytes as f64) as u64, scene, need).map_or_else(
+            || nothing_fits(scene),
+            |c| format!("body.mesh.elements = {c:?} ({} elements) would fit", c.iter().product::<usize>()),
+        ),
     })
+}
+
+fn nothing_fits(scene: &Scene) -> String {
+    match scene.body.mesh {
+        MeshSpec::File(_) => {
+            "a coarser mesh would fit (the counts are guessed from the size of its file)".into()
+        }
+        MeshSpec::Ring { .. } | MeshSpec::Block { .. } => "no mesh would fit".into(),
+    }
 }
 
 /// The largest element counts of about the scene's proportions whose need is within `bytes`.
 fn largest(bytes: u64, scene: &Scene, need: impl Fn(&Scene) -> Need) -> Option<[usize; 3]> {
-    let (MeshSpec::Ring { elements, .. } | MeshSpec::Block { elements, .. }) = scene.body.mesh;
+    let elements = scene.body.mesh.elements()?;
     // A closed ring needs three sides.
     let least = if matches!(scene.body.mesh, MeshSpec::Ring { .. }) { [3, 1, 1] } else { [1; 3] };
     let scaled =
         |s: f64| -> [usize; 3] { std::array::from_fn(|d| ((elements[d] as f64 * s) as usize).max(least[d])) };
     let fits = |counts: [usize; 3]| {
         let mut other = scene.clone();
-        let (MeshSpec::Ring { elements, .. } | MeshSpec::Block { elements, .. }) = &mut other.body.mesh;
-        *elements = counts;
+        *other.body.mesh.elements_mut().expect("a generator has counts") = counts;
         need(&other).bytes() <= bytes
     };
     if !fits(scaled(0.0)) {

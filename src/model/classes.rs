@@ -15,8 +15,8 @@ pub fn find(mesh: &Mesh, [modulus, eta]: [f64; 2]) -> Result<(Vec<Class<f64>>, V
     let mut class_of = Vec::with_capacity(mesh.hexes.len());
     for (element, hex) in mesh.hexes.iter().enumerate() {
         let class = Class::new(&hex.map(|n| mesh.nodes[n as usize]), modulus, eta).ok_or(element)?;
-        // Volumes in logarithmic bins far wider than SAME: an equal shape is in this bin or a neighbour.
-        let bin = (class.volume.ln() * 1e6).floor() as i64;
+        // Volumes in logarithmic bins a hundred times as wide as SAME: an equal shape is in this bin or a neighbour.
+        let bin = (class.volume.ln() * 1e8).floor() as i64;
         let known = (bin - 1..=bin + 1)
             .filter_map(|b| buckets.get(&b))
             .flatten()

@@ -14,7 +14,7 @@ pub mod shuffle;
 use crate::error::{Error, Result};
 use crate::physics::element::{Class, Composition};
 use crate::physics::material::Relaxation;
-use crate::scene::{Body, Element, Hold, Law, Lumping, Rim, Scene};
+use crate::scene::{Body, Element, Hold, Law, Lumping, MeshSpec, Rim, Scene};
 use mesh::{Mesh, UnknownSet};
 use std::sync::Arc;
 
@@ -49,11 +49,15 @@ impl Model {
     pub fn new(scene: &Scene) -> Result<Model> {
         crate::memory::ensure(scene, |scene| memory::body(scene).into())?;
         let mesh = meshed(scene)?;
+        let labels = mesh.labels.clone();
         Model::from_mesh(mesh, &scene.body).map_err(|element| Error::Scene {
             file: scene.file.display().to_string(),
             line: None,
             key: "body.mesh".into(),
-            problem: format!("element {element} is inside out: det dX/dxi is not positive"),
+            problem: format!(
+                "element {} is inside out: det dX/dxi is not positive",
+                mesh::element_name(labels.as_deref(), element)
+            ),
             remedy: "every element needs a positive volume at its corners and Gauss points".into(),
         })
     }
@@ -109,7 +113,11 @@ impl Model {
 /// The mesh of a scene with its rim and holds, where the scene wants it.
 fn meshed(scene: &Scene) -> Result<Mesh> {
     let file = scene.file.display().to_string();
-    let mut mesh = Mesh::graded(&scene.body.mesh, &scene.body.grading).moved(scene.body.offset);
+    let mut mesh = match &scene.body.mesh {
+        MeshSpec::File(mesh) => Mesh::imported(mesh, scene.rim.as_ref().map(|rim| &rim.nodes))?,
+        generator => Mesh::graded(generator, &scene.body.grading),
+    };
+    mesh = mesh.moved(scene.body.offset);
     if let Some(Rim { nodes }) = &scene.rim {
         let key = "rim.nodes";
         mesh = mesh.with_rim(&nodes.name).map_err(|e| nodes.unknown(&file, key, &e.known))?;

@@ -22,6 +22,7 @@ pub mod compare;
 pub mod contact;
 pub mod folder;
 pub mod history;
+pub mod mesh;
 mod pvd;
 pub mod read;
 pub mod rolling;

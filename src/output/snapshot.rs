@@ -67,7 +67,7 @@ pub fn write(
     arrays.extend(grid(mesh, snapshot));
     arrays.extend(point_data(mesh, snapshot));
     let names = ["J", "pressure", "von_mises"];
-    arrays.extend(names.iter().zip(fields).map(|(name, f)| Array::new(CellData, name, 1, f)));
+    arrays.extend(names.into_iter().zip(fields).map(|(name, f)| Array::new(CellData, name, 1, f)));
     super::vtu::write(out, nodes, cells, &arrays)
 }
 

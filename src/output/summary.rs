@@ -15,6 +15,9 @@ pub struct Summary {
     pub title: String,
     /// SHA-256 of the scene's effective text, hexadecimal.
     pub scene_hash: String,
+    /// SHA-256 of the mesh that was read from a file, hexadecimal; none of a generated one, which the scene's text says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh_hash: Option<String>,
     /// GPU adapter and its driver; none on the CPU engine.
     pub adapter: Option<String>,
     pub driver: Option<String>,

@@ -13,6 +13,7 @@ mod field;
 mod footprint;
 mod gpu;
 mod legend;
+mod mesh;
 mod pipeline;
 mod relief;
 mod road;
@@ -24,6 +25,7 @@ pub use body::{BodyView, body_values};
 pub use camera::{Camera, Projection, View};
 pub use colour::ColourMap;
 pub use footprint::{FootprintColour, FootprintStyle, FootprintView, footprint_values};
+pub use mesh::MeshView;
 pub use scale::{Range, Scale};
 
 use crate::{Error, Result};

@@ -4,6 +4,8 @@
 //! B(dt) = M^-1 (dt^2/4 K + dt/2 C) is below one: K alone gives 2/omega_max. B is applied by the engine's own force pass,
 //! as a difference of forces between the state displaced by e w, moving with e (2/dt) w, and the state at rest.
 
+use rayon::prelude::*;
+
 use super::lanczos::{self, Top};
 use crate::engine::Engine;
 use crate::error::Result;
@@ -29,16 +31,33 @@ pub struct Critical {
     pub iterations: usize,
 }
 
+/// Largest step that is stable for an element alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bound {
+    pub dt: f64,
+    /// The first element of its shape.
+    pub element: usize,
+}
+
 /// Critical step from single elements: no assembly can be less stable than its worst element (Irons & Treharne), so
 /// this is safe in the reference shape, and some way below the assembled value.
 pub fn element_bound(model: &Model) -> Result<f64> {
-    let mut worst = f64::INFINITY;
-    for class in 0..model.classes.len() {
-        let Some(element) = model.class_of.iter().position(|&c| c as usize == class) else { continue };
-        worst = worst.min(class_bound(model, class, element)?);
+    Ok(element_bounds(model)?.iter().map(|b| b.dt).fold(f64::INFINITY, f64::min))
+}
+
+/// That of every shape of elements, in the order of the shapes. An imported mesh may have as many as elements.
+pub fn element_bounds(model: &Model) -> Result<Vec<Bound>> {
+    let mut first = vec![usize::MAX; model.classes.len()];
+    for (element, &class) in model.class_of.iter().enumerate().rev() {
+        first[class as usize] = element;
     }
+    let used = first.par_iter().enumerate().filter(|(_, element)| **element != usize::MAX);
     // Every mode is at most as much stiffer at once as the modulus is.
-    Ok(worst / model.relaxation.instantaneous().sqrt())
+    let stiffer = model.relaxation.instantaneous().sqrt();
+    let bound = |(class, &element): (usize, &usize)| {
+        Ok(Bound { dt: class_bound(model, class, element)? / stiffer, element })
+    };
+    used.map(bound).collect()
 }
 
 fn class_bound(model: &Model, class: usize, element: usize) -> Result<f64> {

@@ -7,6 +7,7 @@ mod document;
 pub mod file;
 pub mod heights;
 pub mod history;
+mod mesh_file;
 mod node_set;
 mod overrides;
 mod reader;
@@ -17,6 +18,7 @@ pub use crate::physics::element::{Element, Lumping};
 pub use crate::physics::friction::Friction;
 pub use crate::physics::material::{Law, Relaxation};
 pub use crate::physics::road::Road;
+pub use mesh_file::{Axis, Gaps, LengthUnit, MeshFile, Revolve};
 pub use node_set::NodeSet;
 pub use set_motion::{Path, Pose, SetMotion, Turn, smooth};
 
@@ -133,7 +135,7 @@ pub struct Body {
     pub angular_velocity: [f64; 3],
 }
 
-/// Mesh generators.
+/// Where the mesh comes from: a generator, or a file.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MeshSpec {
     /// A thick-walled cylinder, axle along y through (0, 0, outer_radius), so that it touches z = 0;
@@ -147,13 +149,25 @@ pub enum MeshSpec {
     },
     /// A box with one corner at the origin, edges along +x, +y, +z.
     Block { size: [f64; 3], elements: [usize; 3] },
+    /// A mesh of another program.
+    File(MeshFile),
 }
 
 impl MeshSpec {
-    /// Elements in each direction, in the order in which a scene gives them.
-    pub fn elements(&self) -> [usize; 3] {
-        let (MeshSpec::Ring { elements, .. } | MeshSpec::Block { elements, .. }) = *self;
-        elements
+    /// Elements in each direction, in the order in which a scene gives them; none of a file.
+    pub fn elements(&self) -> Option<[usize; 3]> {
+        match *self {
+            MeshSpec::Ring { elements, .. } | MeshSpec::Block { elements, .. } => Some(elements),
+            MeshSpec::File(_) => None,
+        }
+    }
+
+    /// The counts of a generator, to be changed; none of a file.
+    pub fn elements_mut(&mut self) -> Option<&mut [usize; 3]> {
+        match self {
+            MeshSpec::Ring { elements, .. } | MeshSpec::Block { elements, .. } => Some(elements),
+            MeshSpec::File(_) => None,
+        }
     }
 }
 

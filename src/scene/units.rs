@@ -167,6 +167,16 @@ where
 }
 
 impl Dimension {
+    /// What one of the unit `name` is in SI, if the dimension has it.
+    pub fn unit(&self, name: &str) -> Option<f64> {
+        self.units.iter().find(|u| u.0 == name).map(|u| (u.1)(1.0))
+    }
+
+    /// Spellings of all units.
+    pub fn names(&self) -> Vec<&'static str> {
+        self.units.iter().map(|u| u.0).collect()
+    }
+
     /// SI value of a text such as `"39 mm"`; otherwise what is wrong with it.
     pub fn parse(&self, text: &str) -> Result<f64, String> {
         let (number, unit) = split(text).ok_or_else(|| format!("{text:?} does not start with a number"))?;
@@ -184,8 +194,7 @@ impl Dimension {
 
     /// What would be right: an example and every unit.
     pub fn remedy(&self) -> String {
-        let units: Vec<_> = self.units.iter().map(|u| u.0).collect();
-        format!("write {} such as \"{}\" (units: {})", self.noun, self.example, units.join(", "))
+        format!("write {} such as \"{}\" (units: {})", self.noun, self.example, self.names().join(", "))
     }
 }
 

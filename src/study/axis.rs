@@ -115,7 +115,13 @@ impl Axis {
                 if factor < 1.0 || factor.fract() != 0.0 {
                     return Err(fail("not a whole number of 1 or more", "write e.g. --refine 1,2,3"));
                 }
-                Ok(one(refined(scene, factor as usize)))
+                let refined = refined(scene, factor as usize).ok_or_else(|| {
+                    fail(
+                        "the mesh comes from a file",
+                        "mesh it finer in the program that made it, a scene a mesh",
+                    )
+                })?;
+                Ok(one(refined))
             }
             "slip-angle" => many(
                 slip_angle(scene, number()?.to_radians()),
@@ -188,10 +194,10 @@ fn range(text: &str) -> std::result::Result<Option<Vec<Value>>, String> {
     Ok(Some((0..count).map(value).collect()))
 }
 
-/// The generator's counts times `factor`.
-fn refined(scene: &Scene, factor: usize) -> String {
-    let [a, b, c] = scene.body.mesh.elements().map(|n| n * factor);
-    format!("body.mesh.elements=[{a}, {b}, {c}]")
+/// The generator's counts times `factor`; none of a mesh from a file.
+fn refined(scene: &Scene, factor: usize) -> Option<String> {
+    let [a, b, c] = scene.body.mesh.elements()?.map(|n| n * factor);
+    Some(format!("body.mesh.elements=[{a}, {b}, {c}]"))
 }
 
 /// A number as TOML reads it: with a point, or an exponent.

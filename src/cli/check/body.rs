@@ -3,13 +3,23 @@
 use serde::Serialize;
 
 use hexroll::model::Model;
+use hexroll::model::mesh::quality;
 use hexroll::physics::parameters::{Parameter, Quantity};
+use hexroll::run::stability::Bound;
 use hexroll::scene::{Element, Law, Lumping, Scene};
 
 /// The body as it is meshed.
 #[derive(Debug, Serialize)]
 pub struct Body {
     pub mesh: String,
+    /// What a user must know of the file that the mesh is from.
+    pub notes: Vec<String>,
+    pub volume_m3: f64,
+    /// Smallest scaled Jacobian (1: right angles; 0: flat), and the element that has it.
+    pub worst_scaled_jacobian: f64,
+    pub worst_element: String,
+    /// Elements that allow the shortest steps, one a shape.
+    pub limiting: Vec<Limiting>,
     /// Elements round the circumference; none of a mesh without rows of outermost nodes round its axle.
     pub around: Option<usize>,
     /// Names that [rim] and [[hold]] may use.
@@ -38,13 +48,43 @@ pub struct Body {
     pub shear_wave_speed_m_s: f64,
 }
 
+/// An element that limits the step.
+#[derive(Debug, Serialize)]
+pub struct Limiting {
+    pub element: String,
+    /// Largest step that is stable for it alone [s].
+    pub step_s: f64,
+    /// Elements of this shape.
+    pub alike: usize,
+}
+
+/// Limiting elements that are shown.
+const SHOWN: usize = 3;
+
+fn limiting(model: &Model, bounds: &[Bound]) -> Vec<Limiting> {
+    let mut order: Vec<&Bound> = bounds.iter().collect();
+    order.sort_by(|a, b| a.dt.total_cmp(&b.dt));
+    let one = |b: &&Bound| Limiting {
+        element: model.mesh.element_name(b.element),
+        step_s: b.dt,
+        alike: model.class_of.iter().filter(|&&c| c == model.class_of[b.element]).count(),
+    };
+    order.iter().take(SHOWN).map(one).collect()
+}
+
 impl Body {
-    pub fn of(scene: &Scene, model: &Model) -> Body {
+    pub fn of(scene: &Scene, model: &Model, bounds: &[Bound]) -> Body {
         let law = &scene.body.law;
         let [G, kappa, rho] = [law.shear_modulus(), law.bulk_modulus(), scene.body.density];
         let mesh = &model.mesh;
+        let (worst_scaled_jacobian, worst) = quality::worst(mesh).unwrap_or((1.0, 0));
         Body {
             mesh: mesh.description.clone(),
+            notes: mesh.notes.clone(),
+            volume_m3: model.class_of.iter().map(|&c| model.classes[c as usize].volume).sum(),
+            worst_scaled_jacobian,
+            worst_element: mesh.element_name(worst),
+            limiting: limiting(model, bounds),
             around: mesh.ring().map(|ring| ring.around),
             node_sets: mesh.sets.names(),
             elements: model.element_count(),

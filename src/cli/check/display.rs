@@ -2,6 +2,7 @@
 
 use std::fmt::{Display, Formatter, Result};
 
+use super::body::Limiting;
 use super::memory::CpuMemory;
 use super::programs::{GpuPlan, Program};
 use super::{Body, Check, StagePlan};
@@ -72,11 +73,14 @@ impl Body {
         let (G, kappa, E) = (self.shear_modulus_Pa, self.bulk_modulus_Pa, self.youngs_modulus_Pa);
         let [G, kappa, E] = [G, kappa, E].map(|modulus| si(modulus, "Pa"));
         let (c, s) = (self.wave_speed_m_s, self.shear_wave_speed_m_s);
-        vec![
+        let mut lines = vec![
             ("mesh", self.mesh.clone()),
             ("", format!("{e} elements of {}, {n} nodes", plural(self.shape_classes, "shape"))),
             ("", format!("{} surface nodes, {rim}", self.surface_nodes)),
             ("", format!("{around}; node sets: {}", self.node_sets.join(", "))),
+        ];
+        lines.extend(self.quality());
+        lines.extend([
             ("element", self.element.clone()),
             ("mass", format!("{}: {}", si(1e3 * self.mass_kg, "g"), self.mass_lumping)),
             ("law", format!("{}: {}", self.law, self.constants)),
@@ -85,7 +89,27 @@ impl Body {
                 "waves",
                 format!("{c:.1} m/s of dilatation, {s:.1} m/s of shear; rho = {} kg/m3", self.density_kg_m3),
             ),
-        ]
+        ]);
+        lines
+    }
+}
+
+impl Body {
+    /// Volume, shapes of elements, what limits the step, what a file did not say or says beside the mesh.
+    fn quality(&self) -> Vec<(&'static str, String)> {
+        let cm3 = 1e6 * self.volume_m3;
+        let (worst, element) = (self.worst_scaled_jacobian, &self.worst_element);
+        let one = |l: &Limiting| {
+            let alike = if l.alike > 1 { format!(" and {} alike", l.alike - 1) } else { String::new() };
+            format!("{}{alike} ({})", l.element, si(l.step_s, "s"))
+        };
+        let list: Vec<String> = self.limiting.iter().map(one).collect();
+        let mut lines = vec![
+            ("", format!("volume {cm3:.4} cm3; worst scaled Jacobian {worst:.3}, element {element}")),
+            ("", format!("elements that limit the step: {}", list.join(", "))),
+        ];
+        lines.extend(self.notes.iter().map(|note| ("of the file", note.clone())));
+        lines
     }
 }
 

@@ -108,7 +108,7 @@ pub fn execute(args: &CheckArgs) -> Result<()> {
         scene_hash: scene.hash.clone(),
         title: scene.title.clone(),
         expected: scene.expected.clone(),
-        body: Body::of(&scene, &model),
+        body: Body::of(&scene, &model, &steps.bounds),
         curves,
         pieces: stages::pieces(&scene, &model.mesh.sets),
         stages: stages::plans(&scene, &steps),

@@ -248,7 +248,7 @@ fn modelled(page: &mut Page, found: &Found) {
         .and_then(|()| Model::new(scene));
     match meshed.and_then(|model| Ok((Steps::of(scene, &model)?, model))) {
         Ok((steps, model)) => {
-            page.facts(joined(Body::of(scene, &model).lines()));
+            page.facts(joined(Body::of(scene, &model, &steps.bounds).lines()));
             let pieces = stages::pieces(scene, &model.mesh.sets);
             page.facts(pieces.into_iter().map(|p| (p.name, p.detail.unwrap_or_else(|| "–".into()))));
             page.part("Stages");

@@ -1,19 +1,10 @@
 //! The outer faces of a mesh, found from its elements alone.
 
-use std::collections::HashMap;
-
-use super::FACES;
+use super::faces::{Faces, nodes_of};
 
 /// Faces that belong to one element only, counter-clockwise seen from outside, in the order of the elements.
 pub fn boundary(hexes: &[[u32; 8]]) -> Vec<[u32; 4]> {
-    let key = |mut face: [u32; 4]| {
-        face.sort_unstable();
-        face
-    };
-    let faces = || hexes.iter().flat_map(|hex| FACES.map(|face| face.map(|c| hex[c])));
-    let mut count = HashMap::new();
-    faces().for_each(|face| *count.entry(key(face)).or_insert(0_u32) += 1);
-    faces().filter(|&face| count[&key(face)] == 1).collect()
+    Faces::of(hexes).outer().map(|face| nodes_of(hexes, face)).collect()
 }
 
 #[cfg(test)]

@@ -4,15 +4,22 @@
 //! asked for, and is an option where a mesh may not have it: its [`Lattice`], and the rows round its axle ([`Ring`]).
 //! So a mesh that is read from a file, or renumbered, answers as one that was generated does.
 
+use std::sync::Arc;
+
 mod boundary;
 mod driven;
+mod faces;
 mod generate;
+pub mod import;
+mod labels;
 mod lattice;
+pub mod quality;
 mod ring;
 mod sets;
 
 pub use boundary::boundary;
 pub use driven::Driven;
+pub use labels::{Labels, Numbers};
 pub use lattice::Lattice;
 pub use ring::Ring;
 pub use sets::{NamedNodes, NodeSets, UnknownSet};
@@ -38,10 +45,19 @@ pub struct Mesh {
     pub rim: Vec<u32>,
     /// Nodes that can touch the road: boundary nodes that are not rim nodes, ascending.
     pub surface: Vec<u32>,
+    /// Numbers that a file gives to nodes and elements; none of a generated mesh.
+    pub labels: Option<Arc<Labels>>,
+    /// What a user must know of the file that the mesh is from.
+    pub notes: Vec<String>,
     /// Held components of each node, bit d for component d; empty where nothing is held. Rim nodes have none.
     pub held: Vec<u8>,
     /// Sets whose components follow a motion (those are held too), and sets at rest whose reaction is recorded.
     pub driven: Vec<Driven>,
+}
+
+/// See [`Mesh::element_name`].
+pub fn element_name(labels: Option<&Labels>, element: usize) -> String {
+    labels.map_or_else(|| element.to_string(), |labels| labels.elements.text(element))
 }
 
 impl Mesh {
@@ -96,6 +112,11 @@ impl Mesh {
     /// When every driven set has come to rest [s]; infinite where one never does.
     pub fn driven_end(&self) -> f64 {
         self.driven.iter().map(|set| set.motion.end()).fold(0.0, f64::max)
+    }
+
+    /// What people know an element by: its number in the file that the mesh is from, or its place.
+    pub fn element_name(&self, element: usize) -> String {
+        element_name(self.labels.as_deref(), element)
     }
 
     /// The lattice that nodes and elements are numbered by, if there is one.

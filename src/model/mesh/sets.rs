@@ -43,6 +43,11 @@ impl NodeSets {
         self.sets.iter().find(|s| s.name == name)
     }
 
+    /// All sets, in the order in which they are listed.
+    pub fn iter(&self) -> impl Iterator<Item = &NamedNodes> {
+        self.sets.iter()
+    }
+
     /// Names of all sets, that of every node first.
     pub fn names(&self) -> Vec<String> {
         let own = self.sets.iter().map(|s| s.name.as_str()).filter(|name| *name != ALL);

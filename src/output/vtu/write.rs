@@ -11,7 +11,7 @@ use super::{BYTE_ORDER, Scalar, Section};
 /// A named array of tuples.
 pub struct Array<'a> {
     section: Section,
-    name: &'static str,
+    name: Cow<'a, str>,
     kind: &'static str,
     components: usize,
     tuples: usize,
@@ -22,7 +22,7 @@ impl<'a> Array<'a> {
     /// One tuple of `components` numbers for each item of `values`, shape `[tuples, components]` flat.
     pub fn new<T: Scalar>(
         section: Section,
-        name: &'static str,
+        name: impl Into<Cow<'a, str>>,
         components: usize,
         values: impl Into<Cow<'a, [T]>>,
     ) -> Self {
@@ -32,7 +32,7 @@ impl<'a> Array<'a> {
             Cow::Borrowed(v) => Cow::Borrowed(bytemuck::cast_slice(v)),
             Cow::Owned(v) => Cow::Owned(bytemuck::cast_slice(&v).to_vec()),
         };
-        Array { section, name, kind: T::VTK, components, tuples, bytes }
+        Array { section, name: name.into(), kind: T::VTK, components, tuples, bytes }
     }
 
     /// Characters that the array takes in the appended block.
@@ -42,6 +42,7 @@ impl<'a> Array<'a> {
 
     fn header(&self, offset: usize) -> String {
         let Array { name, kind, components, tuples, .. } = self;
+        let name = escaped(name);
         let mut shape = String::new();
         // Readers make a list of single numbers of what says nothing, a matrix of what says 1.
         if *components > 1 {
@@ -53,6 +54,11 @@ impl<'a> Array<'a> {
         }
         format!("<DataArray type=\"{kind}\" Name=\"{name}\"{shape} format=\"appended\" offset=\"{offset}\"/>")
     }
+}
+
+/// A text as it may stand in an attribute.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Writes a grid of `points` points and `cells` cells with its arrays.

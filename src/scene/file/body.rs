@@ -1,6 +1,7 @@
 //! `[body]`: mesh, material, element.
 
 use super::material::material;
+use super::mesh_file;
 use crate::error::Result;
 use crate::scene::reader::{Bound, Item, Later, Table};
 use crate::scene::units::{ANGLE, ANGULAR_VELOCITY, DENSITY, LENGTH, VELOCITY};
@@ -25,11 +26,9 @@ const KEYS: [&str; 11] = [
     "material",
 ];
 
-const LATER_GENERATORS: [Later; 3] = [
-    ("file", "use generator = \"ring\" or \"block\""),
-    ("import", "use generator = \"ring\" or \"block\""),
-    ("gmsh", "use generator = \"ring\" or \"block\""),
-];
+const A_FILE: &str = "write file = \"wheel.inp\" and unit = \"mm\" in place of generator";
+
+const LATER_GENERATORS: [Later; 3] = [("file", A_FILE), ("import", A_FILE), ("gmsh", A_FILE)];
 
 /// `has_road`: whether there is one to be placed on.
 pub(super) fn body(item: &Item, has_road: bool) -> Result<Body> {
@@ -109,8 +108,12 @@ fn element(body: &Table) -> Result<Element> {
 }
 
 fn mesh(table: &Table) -> Result<MeshSpec> {
+    if let Some(file) = table.get("file") {
+        return mesh_file::read(table, &file).map(MeshSpec::File);
+    }
     let names = [("ring", true), ("block", false)];
-    let generator = table.need("generator", "\"ring\" or \"block\"")?;
+    let generator =
+        table.need("generator", "\"ring\" or \"block\", or the file of a mesh: file = \"wheel.inp\"")?;
     if generator.choice(&names, &LATER_GENERATORS)? { ring(table) } else { block(table) }
 }
 

@@ -7,6 +7,7 @@ mod body;
 mod history;
 mod implicit;
 mod material;
+mod mesh_file;
 mod output;
 mod parameters;
 mod relaxation;
@@ -24,7 +25,7 @@ use sha2::{Digest, Sha256};
 use super::document::{self, Node};
 use super::reader::{Bound, Item, Later, Table};
 use super::units::ACCELERATION;
-use super::{Scene, overrides};
+use super::{MeshFile, Scene, overrides};
 use crate::error::{Error, Result};
 
 const SECTIONS: [&str; 13] = [
@@ -75,6 +76,14 @@ impl Scene {
     /// [`Scene::load`] of a scene that is already in memory; `file` is its name in messages.
     pub fn parse(text: &str, file: &str, overrides: &[String]) -> Result<Scene> {
         read(&effective(text, file, overrides)?, file)
+    }
+
+    /// The file of the mesh that a scene names, whatever else is missing or wrong in it: who mends a scene asks what that says.
+    pub fn mesh_file(text: &str, file: &str, overrides: &[String]) -> Option<MeshFile> {
+        let root = effective(text, file, overrides).ok()?;
+        let table = Item { file, key: String::new(), node: &root }.table().ok()?;
+        let mesh = table.get("body")?.table().ok()?.get("mesh")?.table().ok()?;
+        mesh_file::read(&mesh, &mesh.get("file")?).ok()
     }
 
     /// The scene's text with its overrides, in canonical form (keys sorted, no comments): what [`Scene::hash`]

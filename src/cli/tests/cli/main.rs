@@ -8,6 +8,7 @@ mod choosing;
 mod comparing;
 mod ending_early;
 mod memory;
+mod meshes;
 mod mistakes;
 mod pages;
 mod program;
