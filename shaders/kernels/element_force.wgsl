@@ -30,7 +30,7 @@ fn main(
     for (var level = 0u; level < chains.z; level++) {
         nodes = next_face(at + face_slots, nodes);
         let high = load_end(nodes);
-        recall(element_at(chain, level), there);
+        recall(chain, level, there);
         let result = element_force(low, high, class_at(chains, level, at));
         let f = result.f;
         store(at, chain, lane, chains.w, level, Shared(held.a + f.a0, held.b + f.a1, held.c + f.a2, held.d + f.a3));

@@ -1,6 +1,6 @@
 // Elements remember nothing.
 
-fn recall(element: u32, own: bool) {}
+fn recall(chain: Chain, level: u32, own: bool) {}
 
 fn lose(power: real) {}
 

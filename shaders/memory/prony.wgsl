@@ -24,9 +24,9 @@ var<private> present_loss: real;
 var<private> chain_work: real;
 var<private> chain_loss: real;
 
-// From here on forces are those of this element; `own`: no other thread's.
-fn recall(element: u32, own: bool) {
-    present = element;
+// From here on forces are those of the element number `level` of a chain; `own`: no other thread's.
+fn recall(chain: Chain, level: u32, own: bool) {
+    present = element_at(chain, level);
     keeping = own && step.keeps != 0u;
     present_work = 0.0;
     present_loss = 0.0;
