@@ -446,7 +446,7 @@ fn what_comes_later_is_called_unavailable_not_unknown() {
         ("road.shape=rough", "road.shape: \"rough\"", "\"height-field\""),
         ("road.roughness=1 mm", "road.roughness", "height-field"),
         ("friction.law=table", "friction.law: \"table\"", "\"coulomb\""),
-        ("body.mesh.generator=import", "body.mesh.generator: \"import\"", "\"ring\" or \"block\""),
+        ("body.mesh.generator=import", "body.mesh.generator: \"import\"", "write file = \"wheel.inp\""),
         ("stage.1.friction.coefficient=0.5", "stage.1.friction", "the same in every stage"),
         ("sweep.mu=[0.1, 0.2]", "sweep", "--set"),
         ("checkpoint.every=1 s", "checkpoint", "in one piece"),

@@ -319,7 +319,7 @@ mod tests {
 
     #[test]
     fn what_stands_on_no_circle_is_refused() {
-        let block = Mesh::generate(&MeshSpec::Block { size: [1.0; 3], elements: [2; 3] });
+        let block = Mesh::generate(&MeshSpec::Block { size: [2.0, 1.0, 1.0], elements: [4, 2, 2] });
         assert!(Layout::unturned(&block, block.set("z-min").unwrap(), true).is_err());
         let ring = ring();
         assert!(Layout::unturned(&ring, ring.set("outer").unwrap(), false).is_err(), "no rim");
