@@ -72,7 +72,8 @@ fn velocities_integrate_to_displacements_and_accelerations_to_velocities() {
     // A position is the reference position and the displacement.
     let (x, u) = (signal(history, "position", 4, 2), signal(history, "displacement", 4, 2));
     let off = x.iter().zip(&u).map(|(x, u)| (x - u - history.positions[4][2]).abs()).fold(0.0, f64::max);
-    assert!(off < 1e-8, "{off}");
+    // Both are kept in single precision.
+    assert!(off < 4e-8, "{off}");
 }
 
 #[test]

@@ -18,6 +18,8 @@ const TOLERANCE: f64 = 1e-3;
 /// Share of all modes in the start from the mode found before: enough for another to grow, which it does by a factor or more
 /// an iteration, and little to be rid of.
 const NEW: f64 = 0.01;
+/// Shapes of elements whose bounds several threads find.
+const MANY_SHAPES: usize = 1000;
 /// Iterations after which the bound (value plus residual) is taken as it is.
 const MOST: usize = 120;
 
@@ -51,13 +53,17 @@ pub fn element_bounds(model: &Model) -> Result<Vec<Bound>> {
     for (element, &class) in model.class_of.iter().enumerate().rev() {
         first[class as usize] = element;
     }
-    let used = first.par_iter().enumerate().filter(|(_, element)| **element != usize::MAX);
+    let used = |&(_, element): &(usize, &usize)| *element != usize::MAX;
     // Every mode is at most as much stiffer at once as the modulus is.
     let stiffer = model.relaxation.instantaneous().sqrt();
     let bound = |(class, &element): (usize, &usize)| {
         Ok(Bound { dt: class_bound(model, class, element)? / stiffer, element })
     };
-    used.map(bound).collect()
+    // Threads take memory of their own: for many shapes alone.
+    match first.len() < MANY_SHAPES {
+        true => first.iter().enumerate().filter(used).map(bound).collect(),
+        false => first.par_iter().enumerate().filter(used).map(bound).collect(),
+    }
 }
 
 fn class_bound(model: &Model, class: usize, element: usize) -> Result<f64> {

@@ -177,6 +177,14 @@ fn gmsh_meshes() {
 }
 
 /// Binary counts that claim more than the file has, of both versions.
+/// A binary file must be refused within bounds; a line says little there.
+fn lies(bytes: &[u8], what: &str) {
+    MOST.store(NOW.load(Ordering::Relaxed), Ordering::Relaxed);
+    let (_, problem, remedy) = refused("a.msh", bytes);
+    assert!(problem.contains(what), "{problem}; {remedy}");
+    assert!(MOST.load(Ordering::Relaxed) < BOUND, "{problem}");
+}
+
 #[test]
 fn binary_counts_that_lie() {
     let find =
@@ -186,14 +194,14 @@ fn binary_counts_that_lie() {
     bytes[at..at + 8].copy_from_slice(&(1_u64 << 60).to_ne_bytes());
     let block = at + 24 + 12;
     bytes[block..block + 8].copy_from_slice(&(1_u64 << 50).to_ne_bytes());
-    bad("a.msh", &bytes, None, "the file ends after");
+    lies(&bytes, "the file ends after");
     let mut bytes = msh(true, true);
     let at = find(&bytes, b"$Elements\n");
     let at = at + find(&bytes[at..], b"\n") + 4;
     bytes[at..at + 4].copy_from_slice(&i32::MAX.to_ne_bytes());
-    bad("a.msh", &bytes, None, "a block of");
+    lies(&bytes, "a block of");
     bytes[at..at + 4].copy_from_slice(&(-1_i32).to_ne_bytes());
-    bad("a.msh", &bytes, None, "negative number");
+    lies(&bytes, "negative number");
     // Another byte order.
     let mut bytes = msh(false, true);
     let at = find(&bytes, b"4.1 1 8\n");

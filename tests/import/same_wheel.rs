@@ -73,7 +73,7 @@ fn groups_are_sets_and_the_rim_has_the_axle() {
 }
 
 /// The wheel of Gmsh is the ring generator's of 16 x 2 x 2 elements under other numbers, and at another place: pressed on the road
-/// while it turns, it has the same forces. Coordinates of 16 digits, and a few hundred steps of f64.
+/// while it turns, it has the same forces.
 #[test]
 fn gmsh_and_the_generator_have_the_same_forces() {
     let mut scene = wheel([16, 2, 2], 0.8);
@@ -94,8 +94,8 @@ fn gmsh_and_the_generator_have_the_same_forces() {
     });
     assert!(forces[0][2] > 1.0, "the wheel is on the road");
     for (a, b) in forces[0].iter().zip(forces[1]) {
-        // A side force is zero, and round-off of the others.
-        assert!((a - b).abs() <= 1e-9 * a.abs() + 1e-9 * forces[0][2], "{forces:?}");
+        // Points that Gmsh puts on its circles to 1e-10 m, of a press of 2 mm. A side force is zero, and round-off of the others.
+        assert!((a - b).abs() <= 2e-7 * a.abs() + 1e-9 * forces[0][2], "{forces:?}");
     }
 }
 

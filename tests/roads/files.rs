@@ -41,6 +41,16 @@ fn opencrg_heights_are_those_of_another_reader() {
         for [u, v, z] in &rows {
             let (i, j) = (((u - 100.0) / 0.02).round() as usize, ((v + 0.05) / 0.01).round() as usize);
             let found = map.heights[6 * j + i];
+            // On the last row and section that program is a rounding beyond the edge now and then, where the road comes again.
+            let (last_row, last_section) = (i == 5, j == 9);
+            let again = [
+                last_row.then_some(6 * j),
+                last_section.then_some(i),
+                (last_row && last_section).then_some(0),
+            ];
+            if again.into_iter().flatten().any(|k| (z - map.heights[k]).abs() < digits) {
+                continue;
+            }
             match z.is_nan() {
                 true => assert!(found.is_nan(), "{name}: {u} {v}"),
                 false => near(name, found, *z, digits),
@@ -88,7 +98,7 @@ fn opencrg_that_is_not_read_says_why() {
     bad_crg("D:long section 3,m", "D:latitude,deg", "is no column");
     bad_crg("D:long section 3,m\n", "", "more than");
     bad_crg(" *missing*", " missing**", "is no number");
-    bad_crg("$$$$", "$$", "no line $$$$");
+    bad_crg(&"$".repeat(72), "$$", "no line $$$$");
     let binary = std::fs::read(data("kdbi.crg")).unwrap();
     let fault = crg::read(&binary[..binary.len() - 88]).expect_err("cut");
     assert!(fault.problem.contains("bytes of data"), "{fault:?}");

@@ -195,7 +195,7 @@ fn a_polyline_of_many_points_is_the_curve() {
     }
     // Just below a corner that hardly bends a node is inside, whichever side rounding puts its foot on.
     for [u, w] in vertices {
-        near("below", road.gap([u, 0.0, w - 1e-9]), -1e-9 * (1.0 - u * u / (r * r)).sqrt(), 1e-13);
+        near("below", road.gap([u, 0.0, w - 1e-9]), -1e-9 * (1.0 - u * u / (r * r)).sqrt(), 1e-12);
     }
 }
 

@@ -36,8 +36,8 @@ fn an_unknown_key_of_set_is_an_error_too() {
 fn a_feature_of_a_later_version_exits_3() {
     let place = Place::new();
     place.scene("block.toml", |text| text);
-    let done = place.hexroll(&["check", "block.toml", "--set", "road.shape=disk"]).expect(3);
-    one_error(&done, &["block.toml", "road.shape", "disk"]);
+    let done = place.hexroll(&["check", "block.toml", "--set", "road.shape=sphere"]).expect(3);
+    one_error(&done, &["block.toml", "road.shape", "sphere"]);
     let done = place.hexroll(&["check", "block.toml", "--set", "sweep.a=1"]).expect(3);
     one_error(&done, &["sweep"]);
 }

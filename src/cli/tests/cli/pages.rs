@@ -129,7 +129,7 @@ fn curves_of_several_runs_share_a_plot() {
     assert_eq!(picture.width(), 2 * 620);
     place.hexroll(&["plot", "a", "b", "--from", "0.0005", "--out", "plot.html"]).expect(0);
     let text = page(&place, "plot.html");
-    has(&text, &[">a<", ">b<", "time_s: 1.0000e-3"]);
+    has(&text, &[">a<", ">b<", "time_s: 5.0000e-4"]);
     assert!(!text.contains("time_s: 4.0000e-4"), "windows before --from are left out");
     for (arguments, message) in [
         (["plot", "a", "--column", "road_fq"], "no column \"road_fq\""),
