@@ -68,8 +68,8 @@ const ROADS: [(&str, &[&str]); 6] = [
     ),
 ];
 
-/// Contact in single precision lands a node now and then a step sooner or later, whose force the step's length then shares out: three to
-/// four times what is measured on a software adapter.
+/// Contact in single precision lands a node now and then a step sooner or later, whose force the step's length then shares out.
+/// Bounds are estimates from that, not measurements; a software adapter keeps them.
 const FIELDS: [(&str, f64); 9] = [
     ("works", 2e-4),
     ("half works", 2e-4),
